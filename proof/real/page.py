@@ -20,7 +20,8 @@ are judged in the bands that changed), so those rows are not blind. The rule for
 on `cwru` with labels made wrong, that for knocks without a baseline on `openei_gear`; neither changed an answer
 below. That a bearing which the file lacks is listed among what strikes once a turn was left out until
 `motor_acoustic` had been seen, and makes that row undecided instead of wrong. How many multiples of a shaft make a
-series was chosen with `openei_gear` and `hit_sm_mfs` in view; it names nothing below.
+series was chosen with `openei_gear` and `hit_sm_mfs` in view, and how far the lines of miscounted teeth must be below
+others with `openei_gear`; neither names anything below.
 
 To name a race by its lines is within reach of a plain envelope detector. What a report says beyond that is below:
 place, size, the path that carried it, what it leaves unexplained, and whether it predicts data it has not seen."""

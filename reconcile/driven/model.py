@@ -16,7 +16,7 @@ import scipy
 from scipy import fft
 
 from reconcile.driven.channels import Driven, FloatArray
-from reconcile.force_law.kernels import FREE_POWER, free_run, free_runs
+from reconcile.force_law.kernels import ALONE, free_run, free_runs
 from reconcile.force_law.library import Law
 from sim.core.lanes import WIDTH
 
@@ -168,7 +168,7 @@ def simulated(model: Model, run: Run) -> FloatArray:
 def simulated_together(models: Sequence[Model], run: Run) -> FloatArray:
     """Free runs of models with the same kinds of laws, (models, n): as `simulated`, but for rounding, eight at once."""
     first = models[0]
-    if len(models) == 1 or any(law.code == FREE_POWER for law in first.laws):
+    if len(models) == 1 or any(law.code in ALONE for law in first.laws):
         return np.stack([simulated(model, run) for model in models])
     codes = np.array([law.code for law in first.laws], dtype=np.int64)
     n = run.data.answer.size

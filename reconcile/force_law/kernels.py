@@ -13,6 +13,8 @@ from sim.core.lanes import WIDTH, as_lanes
 
 FREE_POWER = 9
 """Code of the law whose shape is an exponent."""
+ALONE = (FREE_POWER, 14)
+"""Laws whose runs go one by one: of that, and of a root, whose slope at rest has no bound and shows each rounding."""
 
 
 @inline

@@ -24,9 +24,9 @@ ABSENT_DB, LEAST_DB = 10.0, 6.0
 """By which the file's own multiples are below those of the number heard, on the mean, and each: a sideband that one of
 them falls on comes as near as that."""
 LIKE_NEIGHBOURS_DB, NEIGHBOURS = 3.0, 3
-"""Over the loudest of its neighbours up to so many turns away, up to which a line is one of their chain of sidebands:
-the gearbox of `openei_gear` is modulated three times a turn, and its 90th multiple, one of those about the third of its
-32 teeth, stood 6 to 9 dB over the next ones."""
+"""Over the loudest of its neighbours up to so many turns away, but that of the number heard, up to which a line is one
+of their chain of sidebands: the gearbox of `openei_gear` is modulated three times a turn, and its 90th multiple, one of
+those about the third of its 32 teeth, stood 6 to 9 dB over the next ones."""
 MISMATCH = 0.012
 """Relative difference from the stated speed up to which lines of the shaft have told it beyond doubt."""
 
@@ -78,8 +78,8 @@ def _none_at(excess: FloatArray, teeth: int, heard: int) -> bool:
         own, other = (excess[k * z] if k * z < excess.size else np.nan for z in (teeth, heard))
         if not np.isfinite(own) or not np.isfinite(other):
             continue
-        first, last = max(k * teeth - NEIGHBOURS, 1), k * teeth + NEIGHBOURS + 1
-        beside = np.nanmax(np.concatenate([excess[first : k * teeth], excess[k * teeth + 1 : last]]))
+        about = range(max(k * teeth - NEIGHBOURS, 1), min(k * teeth + NEIGHBOURS + 1, excess.size))
+        beside = np.nanmax([excess[n] for n in about if n not in (k * teeth, k * heard)])
         if own > other - LEAST_DB or (own >= CLEAR_DB and own > beside + LIKE_NEIGHBOURS_DB):
             return False
         below.append(other - own)

@@ -9,7 +9,7 @@ import numpy as np
 
 from reconcile.judge.screen import Screen
 from reconcile.machine.direct import HEARD
-from reconcile.machine.left_lines import UNMET_ROUGH, leaves_lines, leaves_little
+from reconcile.machine.left_lines import UNMET_ROUGH, leaves_a_remark, leaves_lines, leaves_little
 from reconcile.machine.likelier import likelier, rivals
 from reconcile.machine.weigh import (
     FAR_AHEAD,
@@ -80,9 +80,6 @@ SOME_PATTERN = 5.0
 """Log evidence of the best effect below which lines that changed for sure are those of none, however little it leaves:
 unknown effects that left 1.0 to 1.6 times what they should had 1.0 to 4.2 (x034, x043, c045, i070, w055), known ones
 5.8 (h062, y025), 8.9 (z052) and, told wrongly so, 1.0 (z036)."""
-AMPLE = 12.0
-"""Log evidence of the best effect from which the little it leaves is a remark: a loose ring and a loose foot of 23.7
-and 23.0 that left 1.3 and 1.2 times too much were right (tw052, tw010); unknown effects had 8.3 at most (i042)."""
 FAINT = 14.0
 """Deviations of the most changed group below which a change that no effect explains may be too faint to tell."""
 
@@ -191,7 +188,9 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     if open_why is not None:
         return Decision(word="not_decidable", chosen=chosen[:MOST_NAMED], p=p, reasons=(open_why,))
     lacks = inadequate and struck < STRUCK
-    ample = lacks and not (odd or weak or alone) and screen.evidence.max() >= AMPLE and leaves_little(screen.rest)
+    usual = screen.lines_asked and screen.p_lines > CLEAR_P
+    ample = lacks and not (odd or weak or alone or usual) and views > FEW_BESIDE_REST
+    ample = ample and leaves_a_remark(float(screen.evidence.max()), screen.rest)
     if weak or alone or lacks:
         here = () if weak or alone else of_the_place(screen)
         if here and views > FEW_VIEWS and _others_silent(screen, here):
@@ -212,6 +211,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
         return Decision(word="explained", chosen=chosen, p=p, reasons=rest)
     if len(chosen) <= MOST_NAMED:
         few = (FEW_REASON,) if views <= FEW_VIEWS and len(credible_set(weights)) < len(chosen) else ()
+        few = (*few, LEFT_OVER) if ample else few
         return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen), *few))
     return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
 

@@ -62,10 +62,11 @@ def best_left_pair(
     near = sum(one[1] >= NEAR_SHARE * seen[0][1] for one in seen)
     most = min(most, BESIDE_LOOSE) if first.startswith("fit_clearance") else most
     made = {name: _fitted(asked, name, rows) for name, _, rows in seen[: max(LEAST_ASKED, min(near, most))]}
-    made |= _as_near(asked, made, seen[len(made) :], most)
     sought = _searched(asked, made, seen)
     sought = sought or _rattling(asked, made) or _driven(asked, made, seen)
     fitted = _fairly(asked, {**made, **sought})
+    more = _as_near(asked, fitted, [one for one in seen if one[0] not in fitted], most)
+    fitted = _fairly(asked, {**made, **sought, **more}) if more else fitted
     kept = {n: p for n, p in fitted.items() if p and repeats(asked.setting, first, n, p.parts, asked.least)}
     pairs = sorted(kept.values(), key=lambda p: -_with_impacts(asked, p))
     simulated = {name: None if pair is None else pair.gain for name, pair in fitted.items()}

@@ -111,15 +111,14 @@ def located(
 ) -> Found:
     """The best of the candidates that were `screened` in the setting `before`, or `seen` by the single lines of the
     setting, simulated on its own machines alone, the best of them more. `seconds` may stand beside the best."""
-    ranked = without_hopeless(with_others(screened, seen, seconds), screened, seen, seconds)
+    near = nearest_effects(screened, before.changes.observed)
+    ranked = without_hopeless(with_others(screened, seen, seconds), screened, seen, seconds, near)
     draws = _draws(screened, before)
     first = first_heat(setting.plan, ranked, draws, budget.terms)
     known = simulated(setting, first, mapper)
     found = fit_views(setting, known)
     best = plausible(found.screen)[: budget.candidates]
-    best += [
-        n for n in nearest_effects(screened, before.changes.observed) if n in known.library.groups and n not in best
-    ]
+    best += [n for n in near if n in known.library.groups and n not in best]
     if looks_for_second(found):
         others = beside(setting, found, best[0])
         best += [n for n in (others.names[:SECONDS] if others else ()) if n not in best]
@@ -190,14 +189,18 @@ def with_others(screened: Found, seen: Found, seconds: Sequence[str] = ()) -> li
     return ranked + [n for n in seconds if n not in ranked]
 
 
-def without_hopeless(ranked: Sequence[str], screened: Found, seen: Found, seconds: Sequence[str]) -> list[str]:
+def without_hopeless(
+    ranked: Sequence[str], screened: Found, seen: Found, seconds: Sequence[str], near: Sequence[str] = ()
+) -> list[str]:
     """Without loose rings, whose simulation is dear, where few effects are plausible, at bearings where nothing speaks
-    for them: neither machines of the kind nor single lines, nor what an impact leaves. Beside a pit that leads by 40
-    they took a fifth of a case. Where much is plausible a ring less is little saved, and the metric another."""
+    for them: neither machines of the kind nor single lines, nor a draw `near` the observation, nor what an impact
+    leaves. Beside a pit that leads by 40 they took a fifth of a case. Where much is plausible a ring less is little
+    saved, and the metric another."""
     looks = [plausible(screened.screen), plausible(seen.screen)]
     if min(map(len, looks)) > FEW_PLAUSIBLE:
         return list(ranked)
-    likely = {name for look in looks for name in look} | {*seconds[:NEAR_SECONDS]}
+    resting = [name for name in seconds if not strikes(name)]
+    likely = {name for look in looks for name in look} | {*near, *resting[:NEAR_SECONDS]}
     for screen in (screened.screen, seen.screen):
         likely |= {screen.names[k] for k in np.argsort(-screen.evidence)[:NEAR_RANK]}
     return [n for n in ranked if n in likely or n.split("@")[0] not in COSTLY]

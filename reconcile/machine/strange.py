@@ -16,7 +16,7 @@ from reconcile.machine.proved import BEYOND_DOUBT
 from reconcile.machine.second import strikes
 from reconcile.machine.self_excited import self_excited
 from reconcile.observe.observation import PointData
-from reconcile.report.revised import share_left
+from reconcile.report.revised import comes_no_nearer
 from reconcile.verdict import Cause, LineChange, NextExperiment, PlaceWeight, Report
 from sim.core.response import Channel
 from sim.core.spec import MachineSpec
@@ -31,8 +31,6 @@ A pull of 100 Hz with 6 dB where nothing else rose by 0.4 (c046 of the proof) st
 beside an angle at a coupling of evidence 10.4 that forecast 0.053, its placebos 0.057; a torque of 100 Hz at one speed
 with 22 dB (c067) beside wavy races of two bearings of 11, 0.27 and 0.33; a belt (tw039)
 with 8.5 dB beside a torque and a run-out of 14 that forecast 0.005 and left 1.75 of 1.75 dB. Known from these three."""
-LEAVES_ALL = 0.95
-"""Share of the levels' change that is left."""
 ELECTRIC: tuple[Kind, ...] = ("mains_hum", "fixed_tones")
 OWN: Mapping[str, tuple[Kind, ...]] = {
     "own time": ELECTRIC, "self-excited": ELECTRIC, "own knocks": ("fixed_tones",)
@@ -142,7 +140,7 @@ def _hardly_named(report: Report, seen: Strange, heard: Mapping[str, float]) -> 
     if any(c.score >= BEYOND_DOUBT or heard.get(f"{c.term}@{c.site}", 0.0) >= HEARD for c in told):
         return False
     if report.verdict == "explained":
-        return held.gain < HARDLY and (held.placebo >= held.gain or (share_left(report) or 0.0) >= LEAVES_ALL)
+        return held.gain < HARDLY and (held.placebo >= held.gain or comes_no_nearer(report))
     return report.verdict == "ambiguous" and held.gain > 0.0 and held.placebo >= held.gain + SHORT
 
 

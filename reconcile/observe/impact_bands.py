@@ -98,6 +98,9 @@ def envelope_power(white: ComplexArray, count: int, rate_hz: float) -> list[Floa
 def standing(channels: Sequence[Sequence[FloatArray]], seconds: float, rate: Rate) -> Standing:
     """Of `channels`, each the powers (lines,) of all bands over `seconds`, at the rate near the stated one that stands
     out most in all of them. A band too narrow for a multiple of it says nothing: level and error 0."""
+    if not channels[0]:
+        nothing = np.zeros((len(channels), 0))
+        return Standing(level=nothing, error=nothing, hz=rate.hz)
     return standings([[power[None] for power in bands] for bands in channels], seconds, rate)[0]
 
 

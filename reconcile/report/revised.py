@@ -32,6 +32,11 @@ def share_left(report: Report) -> float | None:
     return float(str(found["left_of_it_db"])) / float(str(found["level_change_db"]))
 
 
+def comes_no_nearer(report: Report) -> bool:
+    """Whether the revised machine leaves the whole change of levels, on a file that fits."""
+    return not misfits(report) and HARDLY <= (share_left(report) or 0.0) < FARTHER
+
+
 def misfits(report: Report) -> bool:
     """Whether what is named stands beside a file that is another machine's."""
     if report.level != "machine" or report.verdict not in ("explained", "ambiguous"):

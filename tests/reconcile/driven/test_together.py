@@ -71,3 +71,12 @@ def test_one_that_flies_off_stays_where_it_would_alone_and_the_others_go_on(key:
     rest = [k for k in range(9) if k != 3]
     np.testing.assert_allclose(together[rest], alone[rest], rtol=0, atol=1e-10 * np.ptp(alone[rest]))
     np.testing.assert_allclose(errors_together(models, run), np.stack([errors(m, run) for m in models]), rtol=1e-9)
+
+
+def test_errors_count_where_no_channel_was_spoiled() -> None:
+    run = stretch(0)
+    kept = np.where(np.arange(run.compared.size) % 7 == 0, 0.0, 1.0)
+    run, models = replace(run, kept=kept), scattered((CUBIC,), 5)
+    found = errors_together(models, run)
+    assert np.all(found[:, kept == 0.0] == 0.0) and np.all(np.any(found[:, kept > 0.0] != 0.0, axis=1))
+    np.testing.assert_allclose(found, np.stack([errors(m, run) for m in models]), rtol=0, atol=1e-10 * np.ptp(found))

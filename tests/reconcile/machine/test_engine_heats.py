@@ -60,8 +60,16 @@ def test_loose_rings_that_nothing_speaks_for_are_not_simulated() -> None:
         return SimpleNamespace(screen=SimpleNamespace(names=names, evidence=evidence))
 
     led, flat = look(40.0, "fit_clearance@bearing1"), look(2.0)
-    kept = search.without_hopeless(names, led, led, [*others[: search.NEAR_SECONDS - 1], "fit_clearance@bearing3"])  # type: ignore[arg-type]
+    struck = [f"outer_spall@{k}" for k in range(search.NEAR_SECONDS)]
+    kept = search.without_hopeless(
+        names,
+        led,
+        led,
+        [*struck, *others[: search.NEAR_SECONDS - 1], "fit_clearance@bearing3"],  # type: ignore[arg-type]
+    )
     assert kept == [*others, "fit_clearance@bearing1", "fit_clearance@bearing3"], "one near the best, one beside it"
+    near = search.without_hopeless(names, led, led, (), ["fit_clearance@bearing2"])  # type: ignore[arg-type]
+    assert near == [*others, "fit_clearance@bearing1", "fit_clearance@bearing2"], "one whose draw is near"
     late = search.without_hopeless(names, led, led, [*others[: search.NEAR_SECONDS], "fit_clearance@bearing3"])  # type: ignore[arg-type]
     assert late == [*others, "fit_clearance@bearing1"]
     for screened_, seen in ((led, flat), (flat, led)):
@@ -116,6 +124,7 @@ def test_what_looks_like_the_best_is_simulated_as_closely_pitted_and_broken_teet
     monkeypatch: pytest.MonkeyPatch, best: str, with_it: list[str]
 ) -> None:
     asked: list[str] = []
+    first: list[str] = []
     found = SimpleNamespace(screen=None, known=SimpleNamespace(library=SimpleNamespace(groups={})))
 
     def heat(_plan: object, names: list[str], *_: object) -> SimpleNamespace:
@@ -124,9 +133,9 @@ def test_what_looks_like_the_best_is_simulated_as_closely_pitted_and_broken_teet
 
     for name, made in {
         "with_others": lambda *_: [best],
-        "without_hopeless": lambda ranked, *_: ranked,
+        "without_hopeless": lambda ranked, *_: [*ranked, "kept@gear"],
         "_draws": lambda *_: {**{f"{term}@gear": [] for term in CLOSELY}, "fit_clearance@wheel": []},
-        "first_heat": lambda *_: None,
+        "first_heat": lambda _plan, names, *_: first.extend(names),
         "simulated": lambda *_: None,
         "fit_views": lambda *_: found,
         "plausible": lambda _: [best],
@@ -137,4 +146,4 @@ def test_what_looks_like_the_best_is_simulated_as_closely_pitted_and_broken_teet
         monkeypatch.setattr(search, name, made)
     setting = SimpleNamespace(plan=None, changes=SimpleNamespace(observed=None))
     search.located(setting, found, setting, SimpleNamespace(terms=1, candidates=4), map, found)  # type: ignore[arg-type]
-    assert asked == [best, *with_it]
+    assert asked == [best, *with_it] and first == [best, "kept@gear"], "what is not hopeless comes first"

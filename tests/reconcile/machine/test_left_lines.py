@@ -9,7 +9,6 @@ import pytest
 
 from reconcile.judge.adequacy import Rest
 from reconcile.machine.decide import (
-    AMPLE,
     CLEAR_P,
     GREAT,
     LEFT_OVER,
@@ -20,7 +19,7 @@ from reconcile.machine.decide import (
     Decision,
     decide,
 )
-from reconcile.machine.left_lines import LEAST_LEFT_ELSEWHERE, LEAST_LEFT_UNKNOWN, UNMET, leaves_little
+from reconcile.machine.left_lines import AMPLE, LEAST_LEFT_ELSEWHERE, LEAST_LEFT_UNKNOWN, UNMET, leaves_little
 from tests.reconcile.machine.screens import screen
 
 LITTLE = Rest(unmet=1.4, elsewhere=1.4, kept=0.25, pooled=0.26, rough=False)
@@ -53,6 +52,15 @@ def test_the_little_that_an_ample_pattern_leaves_is_a_remark() -> None:
     assert decide(changed([AMPLE, 8.0], rest=much), views=9).word == "unknown_physics", "more than a little"
     odd = changed([AMPLE, 8.0], misfit=STRANGE + 0.01)
     assert decide(odd, views=9).word == "unknown_physics", "by all features"
+    assert LEFT_OVER in several.reasons, "told beside a set as well"
+    few = (decide(changed([AMPLE, 5.0]), views=views) for views in (2, 3, 4))
+    assert [one.word for one in few] == ["not_decidable", "not_decidable", "explained"], "so few views fit by chance"
+    usual = changed([AMPLE, 5.0], p_lines=1.01 * CLEAR_P)
+    assert said(decide(usual, views=9)) == ("not_decidable", LITTLE_LEFT)
+    place = ("rub@gear", "unbalance@gear", "rub@pinion")
+    here = decide(changed([AMPLE + 4.0, AMPLE, 1.0], place), views=9)
+    assert (here.word, here.chosen) == ("ambiguous", place[:2]), "the place is told as before"
+    assert LEFT_OVER not in here.reasons
 
 
 @pytest.mark.parametrize("best", [2.0, 3.1, BELOW])

@@ -28,7 +28,7 @@ from reconcile.observe.statistics import Statistics
 from sim import presets
 
 RANKED = ("outer_spall@bearing2", "inner_spall@bearing1", "outer_spall@bearing1", "tooth_crack@gear", "backlash@mesh1")
-RINGS = ("fit_clearance@bearing1",)
+RINGS = ("fit_clearance@bearing1", "fit_clearance_series@bearing2")
 
 
 @pytest.fixture(scope="module")
@@ -51,9 +51,9 @@ def test_the_first_heat_fills_lanes_with_the_best_effects_at_all_their_sites(atl
 
 def test_what_runs_one_by_one_gets_few_draws_first_and_all_if_it_is_among_the_best(atlas: AtlasPlan) -> None:
     draws = ordered_draws(atlas, ())
-    first = first_heat(atlas, RINGS, draws, terms=1)
-    assert labels(first) == [RINGS[0]] * LEAST_DRAWS
-    assert len(second_heat(atlas, RINGS, draws, first).draws) == LANES - LEAST_DRAWS
+    first = first_heat(atlas, RINGS, draws, terms=2)
+    assert labels(first) == [name for name in RINGS for _ in range(LEAST_DRAWS)]
+    assert len(second_heat(atlas, RINGS, draws, first).draws) == 2 * (LANES - LEAST_DRAWS)
 
 
 def test_more_draws_are_those_that_are_not_done(atlas: AtlasPlan) -> None:

@@ -128,7 +128,11 @@ def test_so_does_a_set_whose_placebos_forecast_as_well(machine: MachineSpec, pla
     assert with_strange(none, SEEN, machine, {}).verdict == "ambiguous", "nothing is forecast by anything"
 
 
-@pytest.mark.parametrize(("left", "gain", "answers"), [(1.75, 0.005, True), (1.6, 0.005, False), (1.75, 0.2, False)])
+@pytest.mark.parametrize(
+    ("left", "gain", "answers"),
+    [(1.75, 0.005, True), (1.67, 0.099, True), (1.65, 0.005, False), (1.75, 0.1, False), (2.2, 0.005, False)],
+    ids=["all", "nearly all", "less", "it forecasts", "another machine's file"],
+)
 def test_so_does_a_name_whose_revised_machine_leaves_the_whole_change(
     machine: MachineSpec, left: float, gain: float, answers: bool
 ) -> None:
