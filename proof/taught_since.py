@@ -55,7 +55,7 @@ SINCE = (
         "tw039, a belt told as a torque and a run-out; unknown physics since",
     ),
     (
-        "what by its sum comes near the best simulated second is simulated ([decision](decisions/reconcile-leftover.md))",
+        "what by its sum comes near the best that is simulated is too ([decision](decisions/reconcile-leftover.md))",
         "tw045, a pit and a loose ring, opened by a foot once rings that nothing speaks for were no longer simulated",
     ),
 )
