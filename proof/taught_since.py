@@ -56,7 +56,7 @@ SINCE = (
     ),
     (
         "what by its sum comes near the best that is simulated is too ([decision](decisions/reconcile-leftover.md))",
-        "tw045, a pit and a loose ring, opened by a foot once rings that nothing speaks for were no longer simulated",
+        "tw045, a pit and a loose ring, opened by a foot in a version that simulated fewer rings",
     ),
 )
 """A rule, and the cases that set it."""

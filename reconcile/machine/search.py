@@ -39,10 +39,9 @@ EXPLAINED = 0.15
 """Share of the squared change that a draw must explain for its size to say something: of eleven development cases the
 nearest draw of the right effect explains 0.2 to 0.6 in five, with a size within 30 %, and below 0.1 it says nothing."""
 NEAREST = 2
-FEW_PLAUSIBLE, NEAR_RANK, NEAR_SECONDS = 10, 10, 20
-"""Effects that a look leaves plausible at most, so that a loose ring is hopeless at all; ranks by either look, and
-among what may be second, down to which it is simulated though out of the question by evidence: of five pairs of a pit
-and a loose ring three rings stood second to fifth in a look, the others 13th and 17th of what the impacts leave."""
+FEW_PLAUSIBLE, NEAR_RANK = 10, 10
+"""Effects that a look leaves plausible at most, so that a loose ring is hopeless at all, and rank by either look down
+to which it is simulated though out of the question by evidence."""
 SECONDS = 3
 """Candidates for a second effect that are simulated with all their draws."""
 MOSTLY_SEEN, SPREAD, SPREAD_ABOUT = 0.75, 6, 2
@@ -112,7 +111,8 @@ def located(
     """The best of the candidates that were `screened` in the setting `before`, or `seen` by the single lines of the
     setting, simulated on its own machines alone, the best of them more. `seconds` may stand beside the best."""
     near = nearest_effects(screened, before.changes.observed)
-    ranked = without_hopeless(with_others(screened, seen, seconds), screened, seen, seconds, near)
+    ranked = with_others(screened, seen, seconds)
+    ranked = ranked if seconds else without_hopeless(ranked, screened, seen, near)
     draws = _draws(screened, before)
     first = first_heat(setting.plan, ranked, draws, budget.terms)
     known = simulated(setting, first, mapper)
@@ -189,18 +189,14 @@ def with_others(screened: Found, seen: Found, seconds: Sequence[str] = ()) -> li
     return ranked + [n for n in seconds if n not in ranked]
 
 
-def without_hopeless(
-    ranked: Sequence[str], screened: Found, seen: Found, seconds: Sequence[str], near: Sequence[str] = ()
-) -> list[str]:
+def without_hopeless(ranked: Sequence[str], screened: Found, seen: Found, near: Sequence[str] = ()) -> list[str]:
     """Without loose rings, whose simulation is dear, where few effects are plausible, at bearings where nothing speaks
-    for them: neither machines of the kind nor single lines, nor a draw `near` the observation, nor what an impact
-    leaves. Beside a pit that leads by 40 they took a fifth of a case. Where much is plausible a ring less is little
-    saved, and the metric another."""
+    for them: neither machines of the kind nor single lines, nor a draw `near` the observation. Where much is plausible
+    a ring less is little saved, and the metric another, as where an impact leaves something: there none is left out."""
     looks = [plausible(screened.screen), plausible(seen.screen)]
     if min(map(len, looks)) > FEW_PLAUSIBLE:
         return list(ranked)
-    resting = [name for name in seconds if not strikes(name)]
-    likely = {name for look in looks for name in look} | {*near, *resting[:NEAR_SECONDS]}
+    likely = {name for look in looks for name in look} | {*near}
     for screen in (screened.screen, seen.screen):
         likely |= {screen.names[k] for k in np.argsort(-screen.evidence)[:NEAR_RANK]}
     return [n for n in ranked if n in likely or n.split("@")[0] not in COSTLY]

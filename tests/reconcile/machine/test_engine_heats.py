@@ -51,7 +51,7 @@ def test_single_lines_nominate_as_well_as_machines_of_the_kind() -> None:
 
 def test_loose_rings_that_nothing_speaks_for_are_not_simulated() -> None:
     rings = tuple(f"fit_clearance@bearing{k}" for k in range(1, 5))
-    others = tuple(f"rub@{k}" for k in range(search.NEAR_RANK + search.NEAR_SECONDS))
+    others = tuple(f"rub@{k}" for k in range(search.NEAR_RANK + 5))
     names = (*others, *rings)
 
     def look(first: float, *best: str) -> SimpleNamespace:
@@ -60,23 +60,15 @@ def test_loose_rings_that_nothing_speaks_for_are_not_simulated() -> None:
         return SimpleNamespace(screen=SimpleNamespace(names=names, evidence=evidence))
 
     led, flat = look(40.0, "fit_clearance@bearing1"), look(2.0)
-    struck = [f"outer_spall@{k}" for k in range(search.NEAR_SECONDS)]
-    kept = search.without_hopeless(
-        names,
-        led,
-        led,
-        [*struck, *others[: search.NEAR_SECONDS - 1], "fit_clearance@bearing3"],  # type: ignore[arg-type]
-    )
-    assert kept == [*others, "fit_clearance@bearing1", "fit_clearance@bearing3"], "one near the best, one beside it"
-    near = search.without_hopeless(names, led, led, (), ["fit_clearance@bearing2"])  # type: ignore[arg-type]
+    kept = search.without_hopeless(names, led, led)  # type: ignore[arg-type]
+    assert kept == [*others, "fit_clearance@bearing1"], "one near the best"
+    near = search.without_hopeless(names, led, led, ["fit_clearance@bearing2"])  # type: ignore[arg-type]
     assert near == [*others, "fit_clearance@bearing1", "fit_clearance@bearing2"], "one whose draw is near"
-    late = search.without_hopeless(names, led, led, [*others[: search.NEAR_SECONDS], "fit_clearance@bearing3"])  # type: ignore[arg-type]
-    assert late == [*others, "fit_clearance@bearing1"]
     for screened_, seen in ((led, flat), (flat, led)):
-        assert search.without_hopeless(names, screened_, seen, ()) == list(names), "none is out of the question"  # type: ignore[arg-type]
+        assert search.without_hopeless(names, screened_, seen) == list(names), "none is out of the question"  # type: ignore[arg-type]
     many = look(2.0)
     many.screen.evidence[-4:] = -50.0
-    assert search.without_hopeless(names, many, many, ()) == list(names), "a ring less would be little saved"  # type: ignore[arg-type]
+    assert search.without_hopeless(names, many, many) == list(names), "a ring less would be little saved"  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("misfit", "direct", "looks"), [(0.95, 25.0, True), (0.95, 2.0, False), (0.3, 25.0, False)])
@@ -145,5 +137,9 @@ def test_what_looks_like_the_best_is_simulated_as_closely_pitted_and_broken_teet
     }.items():
         monkeypatch.setattr(search, name, made)
     setting = SimpleNamespace(plan=None, changes=SimpleNamespace(observed=None))
-    search.located(setting, found, setting, SimpleNamespace(terms=1, candidates=4), map, found)  # type: ignore[arg-type]
+    budget = SimpleNamespace(terms=1, candidates=4)
+    search.located(setting, found, setting, budget, map, found)  # type: ignore[arg-type]
     assert asked == [best, *with_it] and first == [best, "kept@gear"], "what is not hopeless comes first"
+    first.clear()
+    search.located(setting, found, setting, budget, map, found, ["rub@gear"])  # type: ignore[arg-type]
+    assert first == [best], "all, where something may be second"

@@ -14,8 +14,8 @@ from tests.reconcile.machine.test_leftover import seen
 
 
 def test_what_comes_as_near_as_the_best_does_simulated_is_simulated_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A pit and a loose ring (tw045 of the proof): the ring added 14.4 by sums and 12.3 simulated, a foot 6.7 by sums,
-    more than half of the latter and less than half of the former."""
+    """A pit and a loose ring (tw045 of the proof, with fewer rings simulated): the ring added 14.4 by sums and 12.3
+    simulated, a foot 6.7 by sums, more than half of the latter and less than half of the former."""
     fitted = {"half": SimpleNamespace(gain=5.0), "late": None}
     monkeypatch.setattr(left_pairs, "_fitted", lambda _asked, name, _rows: fitted[name])
     asked = SimpleNamespace(least=7.5)
