@@ -22,24 +22,23 @@ class Place:
     channels: tuple[str, ...]
     rows: tuple[int, ...]
 
-    def added(self, terms: Sequence[TermSpec], machines: int | None = None) -> list[FloatArray | None]:
-        """Motion (C, n) that each adds to a machine, one after the other of all or of so many; None where one does not
+    def added(self, terms: Sequence[TermSpec], machine: int | None = None) -> list[FloatArray | None]:
+        """Motion (C, n) that each adds to a machine, one after the other or all to `machine`; None where one does not
         run or adds nothing."""
-        return self.added_by([terms], machines)[0]
+        return self.added_by([terms], machine)[0]
 
     def added_by(
-        self, effects: Sequence[Sequence[TermSpec]], machines: int | None = None
+        self, effects: Sequence[Sequence[TermSpec]], machine: int | None = None
     ) -> list[list[FloatArray | None]]:
         """The same of several effects, each of which has as many draws."""
         draws = max(map(len, effects), default=0)
-        turns = min(machines or len(self.plan.offsets), len(self.plan.offsets))
-        taken = [k % turns for k in range(draws)]
-        distinct = sorted(set(taken))
+        machines = [k % len(self.plan.offsets) if machine is None else machine for k in range(draws)]
+        distinct = sorted(set(machines))
         alone = run_members([self.plan.member(Draw(pair=k), self.point) for k in distinct], self.channels)
         rested = dict(zip(distinct, alone, strict=True))
         found = []
         for terms in effects:
-            pairs = taken[: len(terms)]
+            pairs = machines[: len(terms)]
             members = [self.plan.member(Draw(pair=k, term=t), self.point) for k, t in zip(pairs, terms, strict=True)]
             struck = run_members(members, self.channels)
             added = [added_motion(one, rested[k]) for one, k in zip(struck, pairs, strict=True)]

@@ -120,7 +120,7 @@ class _Turned:
 
 def _loudness(task: _Turned) -> FloatArray:
     """Root mean square of what a pit adds at each angle, (angles,)."""
-    added = task.place.added(task.terms, machines=1)
+    added = task.place.added(task.terms, machine=0)
     return np.array([0.0 if a is None else float(np.sqrt(np.mean(a**2))) for a in added])
 
 

@@ -26,11 +26,11 @@ TELLS_LITTLE = 10.0
 HARDLY, SHORT, CLEARLY_DB = 0.1, 0.05, 5.0
 """What is seen at an order or a frequency of no known part, with a rise of 5 dB, goes before names and sets of less log
 evidence than `BEYOND_DOUBT` that strike nowhere: a name with a held-out gain below a tenth that its placebos reach, and
-a set whose placebos gain 0.05 more; or a name whose revised machine, simulated, leaves the whole change of levels.
-A pull of 100 Hz with 6 dB where nothing else rose by 0.4 (c046 of the proof) stood
-beside an angle at a coupling of evidence 10.4 that forecast 0.053, its placebos 0.057; a torque of 100 Hz at one speed
-with 22 dB (c067) beside wavy races of two bearings of 11, 0.27 and 0.33; a belt (tw039)
-with 8.5 dB beside a torque and a run-out of 14 that forecast 0.005 and left 1.75 of 1.75 dB. Known from these three."""
+a set whose placebos gain 0.05 more; or a name whose revised machine, simulated, leaves the whole change of levels. A
+pull of 100 Hz with 6 dB where nothing else rose by 0.4 (c046 of the proof) stood beside an angle at a coupling of
+evidence 10.4 that forecast 0.053, its placebos 0.057; a torque of 100 Hz at one speed with 22 dB (c067) beside wavy
+races of two bearings of 11, 0.27 and 0.33; a belt (tw039) with 8.5 dB beside a torque and a run-out of 14 that forecast
+0.005 and left 1.75 of 1.75 dB. Known from these three."""
 ELECTRIC: tuple[Kind, ...] = ("mains_hum", "fixed_tones")
 OWN: Mapping[str, tuple[Kind, ...]] = {
     "own time": ELECTRIC, "self-excited": ELECTRIC, "own knocks": ("fixed_tones",)

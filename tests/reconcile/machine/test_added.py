@@ -59,12 +59,3 @@ def test_effects_share_the_machines_without_them() -> None:
     assert one[0] is not None and other[0] is not None and alone[0] is not None
     assert np.array_equal(other[0], alone[0]) and not np.array_equal(one[0], other[0])
     assert at.added_by([]) == []
-
-
-@pytest.mark.slow
-def test_so_many_machines_take_turns() -> None:
-    at = place()
-    first, second, third = at.added([pit(2e-3)] * 3)
-    one, other = at.added([pit(2e-3)] * 2, machines=1)
-    assert first is not None and second is not None and third is not None and one is not None and other is not None
-    assert np.array_equal(first, third) and np.array_equal(one, other), "two machines, then one"
