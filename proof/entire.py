@@ -96,6 +96,8 @@ XENIAL = Design(split="xenial", groups=WIDE.groups, turned=1319, rows=HELD.rows,
 """As zenith, of the rarer laws and most of the pairs that it leaves out."""
 TWELFTH = Design(split="twelfth", groups=WIDE.groups, turned=1423, rows=HELD.rows, begun=72, initials="tw")
 """As xenial, of the rarer laws and most of the pairs that it leaves out."""
+BAKER = Design(split="baker", groups=WIDE.groups, turned=1531, rows=HELD.rows, begun=80, initials="bk")
+"""As twelfth, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -161,6 +163,11 @@ def xenial() -> tuple[Case, ...]:
 def twelfth() -> tuple[Case, ...]:
     """All cases of the twelfth."""
     return cases_of_design(TWELFTH)
+
+
+def baker() -> tuple[Case, ...]:
+    """All cases of the thirteenth."""
+    return cases_of_design(BAKER)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

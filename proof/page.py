@@ -43,8 +43,8 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
-    ("twelfth", "twelfth"), ("xenial", "xenial"), ("zenith", "zenith"), ("zenith", "after"), ("inquest", "inquest"),
-    ("jury", "jury"), ("clear", "clear"), ("vast", "vast"), ("young", "young"),
+    ("baker", "baker"), ("twelfth", "twelfth"), ("xenial", "xenial"), ("zenith", "zenith"), ("zenith", "after"),
+    ("inquest", "inquest"), ("jury", "jury"), ("clear", "clear"), ("vast", "vast"), ("young", "young"),
     ("mixed", "mixed"), ("mixed", "resumed"), ("mixed", "last"), ("mixed", "closing"), ("wide", "wide"),
     ("held", "held"), ("held", "begun"),
 )  # fmt: skip

@@ -49,6 +49,7 @@ Split = Literal[
     "zenith",
     "xenial",
     "twelfth",
+    "baker",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -80,6 +81,7 @@ SEEDS = {
     "zenith": 8_706_415_239,
     "xenial": 5_247_930_816,
     "twelfth": 4_693_170_258,
+    "baker": 8_310_659_427,
 }
 COUNTS = {
     "dev": {

@@ -8,14 +8,16 @@ from pathlib import Path
 
 import pytest
 
-from proof.entire import held, twelfth
-from proof.one_engine import CLEAR, FAR_OFF, of_sizes, one_engine, seen_singles
+from proof.entire import cases_of_design, held
+from proof.one_engine import CLEAR, DESIGNS, FAR_OFF, of_sizes, one_engine, seen_singles
 from proof.plan import Case
 from proof.score.rates import MEASURES, at_target, rate
 from proof.targets import TARGETS, written
 from proof.visible import Visible
 from proof.whole import read
 
+LATEST = DESIGNS[0].split
+PLANNED = cases_of_design(DESIGNS[0])
 STORED = Path(__file__).parents[2] / "proof" / "results" / "entire.json"
 
 
@@ -46,8 +48,8 @@ def test_what_is_run_is_told_with_its_engine_and_that_the_others_are_not(count: 
     assert "The others are not run yet" in said and "make proof SPLIT=held" in said
     present, earlier = said.split("### An earlier engine")
     latest, before = present.split("### An engine before: split `held`")
-    assert latest.startswith("### The latest plan: split `twelfth`") and "|" not in latest
-    assert "### The plan before: split `xenial`" in latest and "### A plan before: split `wide`" in latest
+    assert latest.startswith(f"### The latest plan: split `{LATEST}`") and "|" not in latest
+    assert f"### The plan before: split `{DESIGNS[1].split}`" in latest and "### A plan before: split `wide`" in latest
     assert "| false alarms on nulls" in before and "all first runs" not in before
     assert "None of its cases are stored." in earlier and "|" not in earlier
 
@@ -97,7 +99,7 @@ def test_a_case_of_two_summaries_counts_once(tmp_path: Path) -> None:
 
 
 def test_whether_a_stored_run_is_of_the_engine_at_hand_is_said(tmp_path: Path) -> None:
-    stored(tmp_path, held()[:4], "twelfth", split="twelfth")
+    stored(tmp_path, held()[:4], LATEST, split=LATEST)
     stored(tmp_path, held()[4:6], "begun", engine="bead")
     assert "No stored run is of the engine at hand" in words(one_engine(tmp_path, "beef"))
     said = words(one_engine(tmp_path, "bead"))
@@ -105,18 +107,18 @@ def test_whether_a_stored_run_is_of_the_engine_at_hand_is_said(tmp_path: Path) -
 
 
 def test_what_the_engine_at_hand_makes_of_the_latest_plan_stands_apart_from_first_runs(tmp_path: Path) -> None:
-    stored(tmp_path, twelfth()[:4], "twelfth", split="twelfth")
-    assert "by the engine at hand" not in part(one_engine(tmp_path, "beef"), "twelfth").partition("####")[2]
-    stored(tmp_path, twelfth()[:3], "resumed", split="twelfth", engine="beef", first_run=False)
-    stored(tmp_path, twelfth()[4:5], "closing", split="twelfth", engine="beef")
-    text = part(one_engine(tmp_path, "beef"), "twelfth")
+    stored(tmp_path, PLANNED[:4], LATEST, split=LATEST)
+    assert "by the engine at hand" not in part(one_engine(tmp_path, "beef"), LATEST).partition("####")[2]
+    stored(tmp_path, PLANNED[:3], "resumed", split=LATEST, engine="beef", first_run=False)
+    stored(tmp_path, PLANNED[4:5], "closing", split=LATEST, engine="beef")
+    text = part(one_engine(tmp_path, "beef"), LATEST)
     first, _, own = text.partition("#### The same plan by the engine at hand")
     assert "4 of the plan's 72 cases by `beef` (commit c0ffee00), 1 of them it met first" in words(own)
     assert "no measure of what it makes of machines it has not met" in words(own)
     assert '"Closing" and "Resumed"' in own or '"Resumed" and "Closing"' in own
     assert "| the engine at hand, cases it had mostly met |" in own and "stored first runs" not in own
     assert "all 5 stored first runs" in words(first)
-    assert "by the engine at hand" not in part(one_engine(tmp_path, "bead"), "twelfth").partition("####")[2]
+    assert "by the engine at hand" not in part(one_engine(tmp_path, "bead"), LATEST).partition("####")[2]
 
 
 def test_nothing_is_said_to_be_left_where_all_are_run(tmp_path: Path) -> None:
