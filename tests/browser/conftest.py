@@ -111,7 +111,7 @@ def window(browser_there: None, tmp_path_factory: pytest.TempPathFactory) -> Ite
 @pytest.fixture
 def browser(window: Browser) -> Iterator[Browser]:
     """The window, at its usual size, with a clean log before and no complaint unheard after."""
-    window.cdp("Emulation.clearDeviceMetricsOverride")
+    window.unsize()
     window.complaints()
     yield window
     assert window.complaints() == []

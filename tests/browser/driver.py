@@ -26,6 +26,8 @@ AIM = """
     element.scrollIntoView({ block: "center" });
 """
 MISSED = ("element click intercepted", "stale element reference", "element not interactable")
+LOOKING = ("/execute/sync", "/se/log")
+"""Calls that leave a page as it is, if their scripts do."""
 FLAGS = (
     "--headless",
     "--no-sandbox",
@@ -75,7 +77,7 @@ class Browser:
             "args": [*FLAGS, f"--user-data-dir={profile}", f"--window-size={width},{height}"],
         }
         wanted = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
-        self._session, self._opened = "", 0
+        self._session, self._opened, self._shown, self._sized = "", 0, "", False
         self._session = self._call("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})["sessionId"]
 
     def _listening(self) -> bool:
@@ -86,6 +88,8 @@ class Browser:
 
     def _call(self, method: str, path: str, body: dict[str, Any] | None = None) -> Any:
         url = f"/session/{self._session}{path}" if self._session else path
+        if method == "POST" and not path.startswith(LOOKING):
+            self._shown = ""
         value = self._http.request(method, url, json=body if method == "POST" else None).json()["value"]
         if isinstance(value, dict) and "error" in value:
             raise WebDriverError(f"{value['error']}: {value['message']}")
@@ -104,6 +108,12 @@ class Browser:
         else:
             self.leave()
         self._call("POST", "/url", {"url": url})
+
+    def show(self, url: str) -> None:
+        """Load a page unless it is the last one shown and was only looked at since: by scripts that change nothing."""
+        if url != self._shown:
+            self.open(url)
+            self._shown = url
 
     def leave(self) -> None:
         """To an empty page: nothing asks a server any more, so it may end."""
@@ -166,9 +176,16 @@ class Browser:
 
     def size(self, width: int, height: int = 1000) -> None:
         """Make the page so wide, narrower than a window can be."""
+        self._sized = True
         self.cdp(
             "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600
         )
+
+    def unsize(self) -> None:
+        """The window's own size again, if it was changed."""
+        if self._sized:
+            self.cdp("Emulation.clearDeviceMetricsOverride")
+            self._sized = False
 
     def screenshot(self) -> bytes:
         """PNG of the window."""

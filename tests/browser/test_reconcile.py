@@ -162,7 +162,7 @@ def test_sizes_and_laws_have_their_words_and_units(browser: Browser, service: Se
 
 
 def test_lines_stand_as_on_the_page_of_the_report_and_five_are_open(browser: Browser, service: Service) -> None:
-    browser.open(service.page("/reconcile"))
+    browser.show(service.page("/reconcile"))
     changes = [1.0, -9.0, 3.0, 4.0, 5.0, 6.0, 7.0]
     lines = [
         {"label": f"{i}*f_o1-1*f_r2", "frequency_hz": 10.0 * i, "change_db": c, "locked_to": f"b{i}"}
@@ -185,7 +185,7 @@ def test_lines_stand_as_on_the_page_of_the_report_and_five_are_open(browser: Bro
 
 
 def test_the_list_begins_with_what_was_asked_for_last(browser: Browser, service: Service) -> None:
-    browser.open(service.page("/reconcile"))
+    browser.show(service.page("/reconcile"))
     times = [f"2026-03-01T08:{minute:02}:00.5Z" for minute in (3, 50, *range(4, 30))]
     ids = browser.run(
         "return import('/js/reconcile/start.js').then((m) => m.latest(arguments[0].map((t) => ({ accepted_at: t })))"
@@ -196,7 +196,7 @@ def test_the_list_begins_with_what_was_asked_for_last(browser: Browser, service:
 
 
 def test_sizes_are_rounded_as_on_the_page_of_the_report(browser: Browser, service: Service) -> None:
-    browser.open(service.page("/reconcile"))
+    browser.show(service.page("/reconcile"))
     told = browser.run(
         "return import('/js/lib/format.js').then((m) => arguments[0].map((v) => m.quantity(v, 'm', 2, true)))",
         [1.664e-3, 3.751e-4, 7.391e-3, 9.24e-7],
@@ -218,7 +218,7 @@ def test_sizes_are_rounded_as_on_the_page_of_the_report(browser: Browser, servic
 
 
 def test_every_channel_at_fault_is_told_whatever_its_kind(browser: Browser, service: Service) -> None:
-    browser.open(service.page("/reconcile"))
+    browser.show(service.page("/reconcile"))
     fault = {"kind": "silence", "channel": "fe", "detail": "never changes", "recordings": ["test 1"], "left_out": True}
     other = {**fault, "kind": "loose_sensor", "channel": "xe", "left_out": False, "doubtful": True}
     report = {

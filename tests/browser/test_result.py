@@ -24,6 +24,17 @@ return inked / (data.length / 4);
 @pytest.fixture
 def result(browser: Browser, service: Service) -> Browser:
     browser.open(service.page(f"/jobs/{service.demo}"))
+    return drawn(browser)
+
+
+@pytest.fixture
+def seen(browser: Browser, service: Service) -> Browser:
+    """The page for tests that change nothing of it: one load for all that follow each other."""
+    browser.show(service.page(f"/jobs/{service.demo}"))
+    return drawn(browser)
+
+
+def drawn(browser: Browser) -> Browser:
     browser.find(".peaks-table tr[data-label]")
     eventually(lambda: int(markers(browser)) > 0, what="marked peaks")
     return browser
@@ -38,27 +49,83 @@ def view(browser: Browser, css: str) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def test_how_many_steps_it_took_stands_once(result: Browser) -> None:
-    eventually(lambda: result.run(INKED, SPECTRUM) > 0.01, what="the page")
-    told = result.run("return document.body.innerText.match(/\\bSteps\\b/g).length")
+def test_how_many_steps_it_took_stands_once(seen: Browser) -> None:
+    eventually(lambda: seen.run(INKED, SPECTRUM) > 0.01, what="the page")
+    told = seen.run("return document.body.innerText.match(/\\bSteps\\b/g).length")
     assert told == 1, "what was estimated beside what it took"
 
 
 @pytest.mark.parametrize("card", ["#card-time", "#card-spectrum", "#card-envelope", "#card-inner", "#card-orbit"])
-def test_every_plot_is_drawn_and_named(result: Browser, card: str) -> None:
+def test_every_plot_is_drawn_and_named(seen: Browser, card: str) -> None:
     canvas = f"{card} canvas[role=img]"
-    eventually(lambda: result.run(INKED, canvas) > 0.01, what=f"ink in {card}")
-    assert len(result.run("return document.querySelector(arguments[0]).getAttribute('aria-label')", canvas)) > 20
+    eventually(lambda: seen.run(INKED, canvas) > 0.01, what=f"ink in {card}")
+    assert len(seen.run("return document.querySelector(arguments[0]).getAttribute('aria-label')", canvas)) > 20
 
 
-def test_the_table_says_what_the_api_says(result: Browser, service: Service) -> None:
+def test_the_table_says_what_the_api_says(seen: Browser, service: Service) -> None:
     peaks = service.client.get(f"/v1/jobs/{service.demo}/result/peaks").json()["peaks"]
     mesh = next(peak for peak in peaks if peak["label"] == "1*f_m")
-    text = result.text('.peaks-table tr[data-label="1*f_m"]')
+    text = seen.text('.peaks-table tr[data-label="1*f_m"]')
     assert "690" in text and mesh["status"] in text and "mesh 1" in text
     assert f"{mesh['amplitude']:.3g}"[:3] in text
     known = sum(1 for peak in peaks if peak["family"] and peak["status"] in ("present", "ambiguous"))
-    assert f"{known} of {len(peaks)} lines" in result.text("#card-peaks .card-head")
+    assert f"{known} of {len(peaks)} lines" in seen.text("#card-peaks .card-head")
+
+
+def test_quality_is_told_as_it_is(seen: Browser, service: Service) -> None:
+    quality = service.client.get(f"/v1/jobs/{service.demo}/result").json()["quality"]
+    text = seen.text("#card-quality")
+    for name in ("Energy balance", "Step error", "Start-up transient"):
+        assert name in text
+    assert f"limit {quality['energy']['limit'] * 100:.2g} %" in text
+
+
+@pytest.mark.parametrize(("kind", "start"), [("npz", b"PK"), ("csv", b""), ("wav", b"RIFF"), ("parquet", b"PAR1")])
+def test_files_come_as_asked(seen: Browser, service: Service, kind: str, start: bytes) -> None:
+    asked = seen.run(
+        "const [format] = arguments; let path = null; const click = HTMLAnchorElement.prototype.click;"
+        "HTMLAnchorElement.prototype.click = function () { path = this.getAttribute('href'); };"
+        "const card = document.getElementById('card-downloads'); card.querySelector('select').value = format;"
+        "card.querySelector('form').requestSubmit(); return new Promise((done) => setTimeout(() => {"
+        "HTMLAnchorElement.prototype.click = click; done(path); }, 50))",
+        kind,
+    )
+    reply = service.client.get(asked)
+    assert reply.status_code == 200
+    assert reply.content.startswith(start) and len(reply.content) > 10_000
+    assert f".{kind}" in reply.headers["content-disposition"]
+
+
+def test_the_note_of_the_start_up_says_only_what_is_seen(seen: Browser, service: Service) -> None:
+    summary = service.client.get(f"/v1/jobs/{service.demo}/result").json()
+    canvas = "#card-time canvas.plot-canvas"
+    eventually(lambda: seen.run("return document.querySelector(arguments[0])?.dataset.view", canvas), what="a view")
+    assert view(seen, canvas)[0] == pytest.approx(summary["analysed_from_s"]), "nothing before it is in sight"
+    note = seen.text("#card-time .notes")
+    assert "The view begins there; what is before is shaded in the whole record." in note
+
+
+PLACED = """
+return import("/js/plot/labels.js").then(({ placer }) => {
+  const box = { left: 0, right: 400, top: 0, bottom: 300 };
+  const scale = { px: (v) => v };
+  const series = { x: [0, 99, 100, 101, 139, 140, 141, 400], y: [300, 300, 50, 300, 300, 200, 300, 300] };
+  const plot = { box, series, x: scale, y: scale, view: [0, 400] };
+  const marks = [{ x: 100, y: 50 }, { x: 140, y: 200 }, { x: 140, y: 200 }, { x: 2, y: 4 }];
+  const place = placer(plot, marks);
+  return marks.map((mark) => place(mark, 60));
+});
+"""
+
+
+def test_texts_cover_neither_each_other_nor_the_curve(seen: Browser) -> None:
+    high, beside, crowded, cornered = seen.run(PLACED)
+    assert high["left"] <= 100 - 30 + 2 and high["leader"] is None, "centred above its own peak"
+    assert beside["left"] > 101, "moved off the stem of the higher peak"
+    assert crowded is None or crowded["leader"] is not None, "lifted over its neighbour, or left out"
+    assert cornered is None, "no room in the corner"
+    texts = int(seen.run(f"return document.querySelector('{SPECTRUM}').dataset.texts"))
+    assert texts >= 20
 
 
 def test_a_family_is_switched_in_plot_and_table(result: Browser) -> None:
@@ -132,57 +199,10 @@ def test_other_spectra_are_a_click_away(result: Browser) -> None:
     eventually(lambda: "averages" in result.text("#card-spectrum .notes"), what="the density")
 
 
-def test_quality_is_told_as_it_is(result: Browser, service: Service) -> None:
-    quality = service.client.get(f"/v1/jobs/{service.demo}/result").json()["quality"]
-    text = result.text("#card-quality")
-    for name in ("Energy balance", "Step error", "Start-up transient"):
-        assert name in text
-    assert f"limit {quality['energy']['limit'] * 100:.2g} %" in text
-
-
-@pytest.mark.parametrize(("kind", "start"), [("npz", b"PK"), ("csv", b""), ("wav", b"RIFF"), ("parquet", b"PAR1")])
-def test_files_come_as_asked(result: Browser, service: Service, kind: str, start: bytes) -> None:
-    asked = result.run(
-        "const [format] = arguments; let path = null; const click = HTMLAnchorElement.prototype.click;"
-        "HTMLAnchorElement.prototype.click = function () { path = this.getAttribute('href'); };"
-        "const card = document.getElementById('card-downloads'); card.querySelector('select').value = format;"
-        "card.querySelector('form').requestSubmit(); return new Promise((done) => setTimeout(() => {"
-        "HTMLAnchorElement.prototype.click = click; done(path); }, 50))",
-        kind,
-    )
-    reply = service.client.get(asked)
-    assert reply.status_code == 200
-    assert reply.content.startswith(start) and len(reply.content) > 10_000
-    assert f".{kind}" in reply.headers["content-disposition"]
-
-
 def test_an_unknown_job_is_told(browser: Browser, service: Service) -> None:
     browser.open(service.page("/jobs/0123456789"))
     assert "0123456789" in browser.text("[role=alert]")
     assert any("404" in line for line in browser.complaints())
-
-
-PLACED = """
-return import("/js/plot/labels.js").then(({ placer }) => {
-  const box = { left: 0, right: 400, top: 0, bottom: 300 };
-  const scale = { px: (v) => v };
-  const series = { x: [0, 99, 100, 101, 139, 140, 141, 400], y: [300, 300, 50, 300, 300, 200, 300, 300] };
-  const plot = { box, series, x: scale, y: scale, view: [0, 400] };
-  const marks = [{ x: 100, y: 50 }, { x: 140, y: 200 }, { x: 140, y: 200 }, { x: 2, y: 4 }];
-  const place = placer(plot, marks);
-  return marks.map((mark) => place(mark, 60));
-});
-"""
-
-
-def test_texts_cover_neither_each_other_nor_the_curve(result: Browser) -> None:
-    high, beside, crowded, cornered = result.run(PLACED)
-    assert high["left"] <= 100 - 30 + 2 and high["leader"] is None, "centred above its own peak"
-    assert beside["left"] > 101, "moved off the stem of the higher peak"
-    assert crowded is None or crowded["leader"] is not None, "lifted over its neighbour, or left out"
-    assert cornered is None, "no room in the corner"
-    texts = int(result.run(f"return document.querySelector('{SPECTRUM}').dataset.texts"))
-    assert texts >= 20
 
 
 def finished(service: Service, **body: object) -> str:
@@ -209,15 +229,6 @@ def test_the_start_up_does_not_set_the_scale(browser: Browser, service: Service)
     assert summary["analysed_from_s"] == 0
     low, high = view(browser, canvas)
     assert low >= 0.2 and high == pytest.approx(0.5)
-
-
-def test_the_note_of_the_start_up_says_only_what_is_seen(result: Browser, service: Service) -> None:
-    summary = service.client.get(f"/v1/jobs/{service.demo}/result").json()
-    canvas = "#card-time canvas.plot-canvas"
-    eventually(lambda: result.run("return document.querySelector(arguments[0])?.dataset.view", canvas), what="a view")
-    assert view(result, canvas)[0] == pytest.approx(summary["analysed_from_s"]), "nothing before it is in sight"
-    note = result.text("#card-time .notes")
-    assert "The view begins there; what is before is shaded in the whole record." in note
 
 
 def test_a_ring_down_is_seen_from_its_beginning(browser: Browser, service: Service) -> None:
