@@ -10,7 +10,10 @@ FETCHED = { n=0; while read -r word rest; do case "$$word $$rest" in \
   "Installing collected"*) echo "      unpacking them";; "pip failed") exit 1;; esac; done; }
 PIP = PYTHONUNBUFFERED=1 $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 # What a lock file names, which is whole: to look for what its packages need takes longer than to fetch them.
-LOCKED = { $(PIP) --no-deps --no-compile -r $(1) || echo "pip failed"; } | $(call FETCHED,$(1))
+# One half beside the other: unpacking is work for one core.
+HALF = awk '/==/ && ++n % 2 == $(2)' $(1) >$(VENV)/half$(2).txt && $(PIP) --no-deps --no-compile -r $(VENV)/half$(2).txt
+LOCKED = { { $(call HALF,$(1),0) & } && half=$$!; $(call HALF,$(1),1); found=$$?; \
+  wait $$half && [ $$found = 0 ] || echo "pip failed"; } | $(call FETCHED,$(1))
 # Another Python or machine may need a package more; then pip looks.
 WHOLE = $(BIN)/python -m pip check >/dev/null 2>&1 || $(PIP) --quiet --no-compile -c constraints.txt -r $(1)
 # On all cores, and without the packages' own tests.

@@ -20,7 +20,9 @@ from reconcile.kinematics.shafts import Impulsiveness
 from reconcile.verdict import AngleWindow
 from signals.series import FloatArray
 
-LEAST_TURNS = 4
+LEAST_TURNS, MOST_TURNS = 4, 50
+"""Of more turns lines stand out, and blows at one angle are a comb of the turn; a train at another order that a load
+which turns makes louder at one angle is none."""
 BINS, STEPS_A_BIN = 60, 2
 """Angles of a turn that are looked at, and steps of the envelope in each at least."""
 ROTATIONS = 999
@@ -50,7 +52,7 @@ def slow_turn(tests: Sequence[Observation], impacts: Impulsiveness, ties: Ties, 
     found = []
     for number, (shaft, ratio) in enumerate(ties.shafts.items()):
         table = folded(values, per_turn / ratio)
-        if table is None:
+        if table is None or len(table) > MOST_TURNS:
             continue
         level, score, chance = agreement(table, np.random.default_rng((seed, 91, number)))
         step = 360.0 / table.shape[1]

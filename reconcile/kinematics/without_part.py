@@ -9,6 +9,7 @@ from reconcile.kinematics.candidate import DEFECTS, Candidate
 from reconcile.kinematics.faint import impulsive_report, shallow_report
 from reconcile.kinematics.families import Ties
 from reconcile.kinematics.foreign import BESIDE_DB, foreign_comb
+from reconcile.kinematics.foreign_bands import foreign_in_a_band
 from reconcile.kinematics.grown import old_defects
 from reconcile.kinematics.in_step import new_blows
 from reconcile.kinematics.judge import HEARD_Z, TURN_DEPTH
@@ -63,7 +64,8 @@ def without_a_part(
         return of_none
     struck = new_blows(tests, baselines, tie)
     driven = None if struck is None else driven_report(*struck, tests)
-    impacts = driven or _of_impacts(known, tie, tests, baselines, every, seed)
+    impacts = driven or _hidden(tie, tests, baselines, every, heard, seed)
+    impacts = impacts or _of_impacts(known, tie, tests, baselines, every, seed)
     if impacts is not None:
         return impacts
     stands_out = bool(series and grown) and grown[0].growth_db > series[0].middle_db + STANDS_OUT_DB
@@ -90,6 +92,22 @@ def _of_no_part(
     if made is not None:
         return replace(electric_report(made, tests, baselines), pictures=pictures)
     return None if foreign is None else replace(foreign_report(foreign, tests, baselines), pictures=pictures)
+
+
+def _hidden(
+    tie: Ties,
+    tests: list[Observation],
+    baselines: list[Observation],
+    every: Sequence[Candidate],
+    heard: Sequence[str],
+    seed: int,
+) -> Report | None:
+    """Periodic impacts at an order of no part, where the same order sounds without defect in a firmer band."""
+    found = foreign_in_a_band(tests[0], baselines, tie, seed, heard=heard)
+    if found is None or electric_foreign(found, tests[0]) is not None:
+        return None
+    pictures = comb_picture(found, every, tests[0], baselines)
+    return replace(foreign_report(found, tests, baselines), pictures=pictures)
 
 
 def _of_impacts(

@@ -7,7 +7,7 @@ the engine used throughout (it cancels in differences).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TypedDict, cast
+from typing import NotRequired, TypedDict, cast
 
 from reconcile.report.strict import Plain, plain
 
@@ -132,7 +132,8 @@ class ForceMap(TypedDict):
 
 
 class Law(TypedDict):
-    """`law`: force over one argument with its 90 % band, and the named law through it (`fitted`, or None)."""
+    """`law`: force over one argument with its 90 % band, and through it (`fitted`, or None) the named law, or, not
+    `named`, the nearest."""
 
     x_label: str
     y_label: str
@@ -141,6 +142,7 @@ class Law(TypedDict):
     low: Sequence[float | None]
     high: Sequence[float | None]
     fitted: Sequence[float | None] | None
+    named: NotRequired[bool]
 
 
 class Pictures(TypedDict, total=False):

@@ -95,7 +95,7 @@ def note(report: Report) -> str:
 def _reproduces(report: Report) -> str:
     loads, left = "Loads back into the simulator", share_left(report)
     if left is None:
-        return f"{loads}, with what is named in it."
+        return f"{loads}, with what {'is named' if any(c.named for c in report.causes) else 'comes nearest'} in it."
     if left >= FARTHER:
         return (
             f"{loads}, but does not reproduce the recordings: simulated, it leaves {percent(left)} of the levels' "

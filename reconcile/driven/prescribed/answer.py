@@ -18,6 +18,7 @@ from reconcile.driven.prescribed.machine import Built, built
 from reconcile.driven.prescribed.pictures import SHOWN_CYCLES_S, force_samples, pictures
 from reconcile.driven.prescribed.resistance import GRADUAL, UNITS, travel_to
 from reconcile.driven.prescribed.reversals import SHARE
+from reconcile.driven.prescribed.told import interval_of, left_of, sentence, sizes_of, undecided, used_errors
 from reconcile.driven.split import parts_of
 from reconcile.verdict import (
     Cause,
@@ -35,9 +36,6 @@ from sim.terms import REGISTRY
 
 PARTS_OF_A_PATH = {"backlash": "backlash", "friction": "coulomb_friction", "cubic": "cubic_support"}
 """Registered effects by the parameter that is their size."""
-SIZES = ("backlash", "friction", "drag", "cubic", "contact", "gap_up", "gap_down")
-GAPS, SEEN = ("gap_up", "gap_down"), 10.0
-"""Gaps, and how many amplitudes wide one is no more."""
 WORTH = 0.15
 """Low end of the gain on the run held out, from which a law is worth a name: of made spring-dampers that were once
 taken for friction it was at most 0.07, of laws that are there 0.39 and more."""
@@ -65,33 +63,13 @@ def _term(parameter: str) -> str:
     return key if REGISTRY.get(key) is not None else OWN_LAW
 
 
-def _interval(found: Findings, shown: Resisting, name: str) -> tuple[float, float]:
-    """90 % of the fit; of play also what a soft start of the friction allows."""
-    low, high = shown.intervals[name]
-    if name == "backlash" and found.widths is not None and shown is found.chosen:
-        return min(low, found.widths.low_m), max(high, found.widths.high_m)
-    return low, high
-
-
-def _sizes(found: Findings, shown: Resisting) -> list[str]:
-    """Sizes of a law; not those of gaps that the motion never closed."""
-    seen = SEEN * float(np.max(np.abs(found.fitted.motion.displacement)))
-    return [n for n in SIZES if n in shown.values and not (n in GAPS and shown.values[n] > seen)]
-
-
 def _severity(whole: Findings, found: Resisting, name: str) -> Severity:
-    low, high = _interval(whole, found, name)
+    low, high = interval_of(whole, found, name)
     return Severity(name=name, value=found.values[name], unit=UNITS[name], low=low, high=high)
 
 
-def _used(o: Outcome) -> tuple[float, float, float, float]:
-    """NRMSE of linear, chosen, black box, placebo: blind where friction transfers, else with one number each."""
-    k = 0 if o.transfers else 1
-    return o.linear[k], o.chosen[k], o.black_box[k], o.placebo[k]
-
-
 def _held_out(o: Outcome, seed: int) -> HeldOut:
-    before, after, box, placebo = _used(o)
+    before, after, box, placebo = used_errors(o)
     _, low, high = gain_interval(o.squares[0], o.squares[1], np.random.default_rng([seed, 5]))
     how = "predicted with nothing of it" if o.transfers else "after one number (its level) from its first third"
     return HeldOut(
@@ -108,7 +86,7 @@ def _times_left(found: Findings) -> float:
 
 def _reasons(found: Findings, gain_low: float) -> tuple[str, ...]:
     best = found.chosen.structure
-    ends = {name: _interval(found, found.chosen, name) for name in _sizes(found, found.chosen)}
+    ends = {name: interval_of(found, found.chosen, name) for name in sizes_of(found, found.chosen)}
     failed = [f"the interval of {name} includes zero" for name, (low, high) in ends.items() if low <= 0 <= high]
     if not leads(found.linear_squares, found.trials[0][1]):
         failed.append(f"{best.words} is not better than a spring and damper on the stretch kept for choosing")
@@ -126,7 +104,7 @@ def _reasons(found: Findings, gain_low: float) -> tuple[str, ...]:
     if gain_low < WORTH:
         failed.append(f"on {found.outcomes[0].held} the error falls by less than {100 * WORTH:.0f} % (90 %)")
     for o in found.outcomes:
-        before, after, _, placebo = _used(o)
+        before, after, _, placebo = used_errors(o)
         if after >= min(before, o.retuned, placebo):
             failed.append(f"fitted on {o.fitted_on}, {o.held} is not predicted better than by a retuned linear law")
     return tuple(failed)
@@ -134,25 +112,19 @@ def _reasons(found: Findings, gain_low: float) -> tuple[str, ...]:
 
 def _something(found: Findings) -> bool:
     """Whether the motion foretells more of the force than a spring and damper do, by all signals or by a law."""
-    if _left(found) < LEAST_TOLD:
+    if left_of(found) < LEAST_TOLD:
         return False
     best = found.trials[0][1]
     gain = 1.0 - float(best.mean() / max(float(found.linear_squares.mean()), 1e-300))
     return found.rich.foretells or (leads(found.linear_squares, best) and gain > LEAST_GAIN)
 
 
-def _left(found: Findings) -> float:
-    """Share of the force that the linear model leaves on the fitted run."""
-    run = found.fitted
-    return float(found.linear.error[run.skip :].std() / max(float(run.force[run.skip :].std()), 1e-300))
-
-
 def _is_noise(found: Findings) -> bool:
     """Whether what the linear model leaves may be noise: no lines stand in it, and no cause of the test tells it."""
     told = found.missing.p_value < ALPHA and found.missing.statistic > LEAST_GAIN
-    if _left(found) > LEAST_MOTION:
+    if left_of(found) > LEAST_MOTION:
         return False
-    return not told and (_left(found) < LEAST_LEFT or found.beyond < LINES)
+    return not told and (left_of(found) < LEAST_LEFT or found.beyond < LINES)
 
 
 def _verdict(found: Findings, reasons: Sequence[str]) -> Word:
@@ -163,47 +135,6 @@ def _verdict(found: Findings, reasons: Sequence[str]) -> Word:
     return "explained" if found.rival is None else "ambiguous"
 
 
-def _sentence(found: Findings, verdict: Word, reasons: Sequence[str], site: str) -> str:
-    values, words = found.chosen.values, found.chosen.structure.words
-    if verdict == "nothing_missing":
-        return f"A spring and damper explain the force on {site} up to noise."
-    if verdict == "not_decidable":
-        return (
-            f"A spring and damper leave {100 * _left(found):.0f} % of the force on {site}: more than its noise, and "
-            "nothing that the motion foretells."
-        )
-    if verdict == "ambiguous" and found.rival is not None:
-        return f"The force on {site} has a part that is {words} or {found.rival.words}."
-    if verdict == "unknown_physics":
-        o = found.outcomes[0]
-        before, after, _, _ = _used(o)
-        return (
-            f"The force on {site} is more than a spring and damper, and no law that was tried is sure. Nearest comes "
-            f"{words} (error on {o.held} {100 * after:.0f} %, with spring and damper {100 * before:.0f} %), but "
-            f"{reasons[0]}."
-        )
-    o = found.outcomes[0]
-    before, after, _, _ = _used(o)
-    said = f"What is missing at {site} is {words}"
-    if "backlash" in values:
-        low, high = (1e3 * x for x in _interval(found, found.chosen, "backlash"))
-        said += f": {1e3 * values['backlash']:.1f} mm of play (90 %: {low:.1f} to {high:.1f})"
-    gaps = [n for n in _sizes(found, found.chosen) if n in GAPS]
-    if gaps:
-        said += ": " + " and ".join(
-            "{:.1f} mm ({:.1f} to {:.1f})".format(*(1e3 * x for x in (values[n], *found.chosen.intervals[n])))
-            + (" upwards" if n == "gap_up" else " downwards")
-            for n in gaps
-        )
-    if found.travel is not None:
-        t = found.travel
-        said += (
-            f", and after a reversal {1e3 * t.mean_m:.1f} mm ({1e3 * t.low_m:.1f} to {1e3 * t.high_m:.1f}) pass until "
-            f"{100 * SHARE:.0f} % of the sliding force"
-        )
-    return f"{said}; error of the force on {o.held} falls from {100 * before:.0f} % to {100 * after:.0f} %."
-
-
 def _causes(found: Findings, verdict: Word, reasons: tuple[str, ...], site: str) -> tuple[Cause, ...]:
     causes = []
     named = verdict == "explained"
@@ -211,15 +142,19 @@ def _causes(found: Findings, verdict: Word, reasons: tuple[str, ...], site: str)
         score, _ = score_nats(found.linear_squares, squares)
         best = rank == 0
         shown = found.chosen if best else trial
-        sizes = _sizes(found, shown)
-        for name in sizes if best else sizes[:1]:
-            why = reasons if best and reasons else (trial.structure.words,)
+        sizes = sizes_of(found, shown)
+        why = reasons if best and reasons else (trial.structure.words,)
+        if not sizes:
             causes.append(
-                Cause(
-                    term=_term(name), site=site, score=score, severity=_severity(found, shown, name),
-                    named=named and best, reasons=why, values=dict(shown.values),
-                )
-            )  # fmt: skip
+                Cause(term=OWN_LAW, site=site, score=score, named=False, reasons=why, values=dict(shown.values))
+            )
+        causes += [
+            Cause(
+                term=_term(name), site=site, score=score, severity=_severity(found, shown, name),
+                named=named and best, reasons=why, values=dict(shown.values),
+            )
+            for name in (sizes if best else sizes[:1])
+        ]  # fmt: skip
     return tuple(causes)
 
 
@@ -228,7 +163,7 @@ def _stages(found: Findings) -> tuple[Mapping[str, object], ...]:
         {"stage": "calibrate", **{k: found.linear.values[k] for k in ("stiffness", "damping", "offset")}},
         {"stage": "is_anything_missing", "statistic": found.missing.statistic, "null_95": found.missing.null_95,
          "p": found.missing.p_value, "foretold": found.rich.gain, "in_lines": found.beyond,
-         "linear_leaves": _left(found), "nothing_foretells_n": found.rich.left},
+         "linear_leaves": left_of(found), "nothing_foretells_n": found.rich.left},
         {"stage": "nominate", **{t.structure.words: float(s.mean() ** 0.5) for t, s in found.trials}},
         {"stage": "beside_the_law", **{run: vars(told) for run, told in found.besides}},
         {"stage": "soft_start", **({} if found.widths is None else vars(found.widths))},
@@ -244,18 +179,6 @@ def _stages(found: Findings) -> tuple[Mapping[str, object], ...]:
 
 def _model_travel(found: Resisting) -> float | None:
     return travel_to(dict(found.values), SHARE) if "elastic" in found.values else None
-
-
-def _undecidable(found: Findings) -> tuple[str, ...]:
-    said = []
-    if any(not o.transfers for o in found.outcomes):
-        levels = ", ".join(f"{o.held} {o.level:.2f} times {o.fitted_on}" for o in found.outcomes)
-        said.append(
-            f"The friction level does not transfer between the runs ({levels}): it is a setting, not the machine."
-        )
-    if "backlash" in found.chosen.values:
-        said.append("Play and the spring behind it share the travel: a soft start of the spring counts as play.")
-    return tuple(said)
 
 
 def _force(found: Findings, verdict: Word, site: str) -> EstimatedForce | None:
@@ -298,13 +221,13 @@ def reconcile_prescribed(
     something = verdict not in QUIET
     report = Report(
         verdict=verdict,
-        sentence=" ".join([_sentence(found, verdict, reasons, name), *held.remarks]),
+        sentence=" ".join([sentence(found, verdict, reasons, name), *held.remarks]),
         level="driven",
         where=Where(sites=(PlaceWeight(site=name, weight=1.0),) if something else (), limits=limits),
         causes=_causes(found, verdict, reasons, name) if something else (),
         held_out=held_out if something else None,
         force=_force(found, verdict, name),
-        undecidable=(*(_undecidable(found) if something else ()), *((data.assumed,) if data.assumed else ())),
+        undecidable=(*(undecided(found) if something else ()), *((data.assumed,) if data.assumed else ())),
         next_experiment=NextExperiment(
             sentence="Move it slowly, well below the play and then just beyond it: play and spring then part."
         )
@@ -312,7 +235,7 @@ def reconcile_prescribed(
         else None,
         machine=machine.machine.model_dump(mode="json"),
         stages=_stages(found),
-        pictures=pictures(found),
+        pictures=pictures(found, named=verdict == "explained"),
         provenance={**provenance, "force_channels": machine.channels, "longest_step_s": machine.longest_step_s},
     )
     return beside(report, [*held.faults, *drifting(found, parts)])

@@ -44,7 +44,7 @@ def force_samples(found: Findings) -> dict[str, tuple[float, ...]]:
     return {key: joined(name) for key, name in keys.items()}
 
 
-def _law(found: Findings, *, rising: bool) -> dict[str, object]:
+def _law(found: Findings, *, rising: bool, named: bool) -> dict[str, object]:
     rng = np.random.default_rng(0)
     samples = _samples(found, rising=rising)
     over = curve(samples, samples.displacement_m, rng, bins=30)
@@ -59,19 +59,19 @@ def _law(found: Findings, *, rising: bool) -> dict[str, object]:
     side = "rising" if rising else "falling"
     return {
         "x_label": f"displacement ({side}), m", "y_label": "force, N", "x": over.argument, "force": over.force_n,
-        "low": over.low_n, "high": over.high_n, "fitted": fitted,
+        "low": over.low_n, "high": over.high_n, "fitted": fitted, "named": named,
     }  # fmt: skip
 
 
-def pictures(found: Findings) -> dict[str, object]:
-    """All pictures."""
+def pictures(found: Findings, *, named: bool) -> dict[str, object]:
+    """All pictures; `named`: whether the first law is the answer, not only the nearest."""
     held = found.held
     n = min(int(SHOWN_CYCLES_S / held.motion.step_s), held.force.size)
     rows = []
     for k, (trial, squares) in enumerate(found.trials):
         score, error = score_nats(found.linear_squares, squares)
         ends = {"low": score - 1.645 * error, "high": score + 1.645 * error}
-        rows.append({"label": trial.structure.words, "score": score, "named": k == 0, **ends})
+        rows.append({"label": trial.structure.words, "score": score, "named": named and k == 0, **ends})
     plane = surface(_samples(found))
     time = np.arange(n) * held.motion.step_s
     return {
@@ -83,7 +83,7 @@ def pictures(found: Findings) -> dict[str, object]:
             }
         ],
         "ranking": rows,
-        "law": [_law(found, rising=True), _law(found, rising=False)],
+        "law": [_law(found, rising=up, named=named) for up in (True, False)],
         "force_map": {
             "x_label": "displacement, m", "y_label": "velocity, m/s", "value_label": "N", "x": plane.displacement_m,
             "y": plane.velocity_m_per_s, "value": plane.force_n,

@@ -38,7 +38,11 @@ def law_words(picture: Mapping[str, Plain]) -> Markup:
     y_label, x_label = (text(picture.get(key)).split(",")[0] for key in ("y_label", "x_label"))
     drawn = [("observed", "estimated from the recording")]
     drawn += [("band", "its 90 % band")] if numbers(picture.get("low")) else []
-    drawn += [("after", "the named law")] if numbers(picture.get("fitted")) else []
+    drawn += (
+        [("after", "the nearest law" if picture.get("named") is False else "the named law")]
+        if numbers(picture.get("fitted"))
+        else []
+    )
     key = tag("div", *(tag("span", tag("i", css=f"k-{css}"), words) for css, words in drawn), css="key")
     return Markup(tag("h3", f"{y_label.capitalize()} over {x_label}") + key)
 

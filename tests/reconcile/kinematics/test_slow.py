@@ -95,3 +95,11 @@ def test_a_turn_is_folded_on_itself() -> None:
 @pytest.mark.parametrize(("steps", "period"), [(700, 240.0), (2400, 50.0)])
 def test_too_few_turns_and_too_wide_steps_are_not_folded(steps: int, period: float) -> None:
     assert folded(np.ones(steps), period) is None
+
+
+@pytest.mark.slow
+def test_a_shaft_of_many_turns_is_told_by_its_lines_not_by_angle(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A train at another order that a turning load makes louder at one angle would be one of the turn."""
+    monkeypatch.setattr("reconcile.kinematics.slow.MOST_TURNS", 6)
+    report = reconcile_kinematics(UNGEARED, [gearbox(2, np.arange(8) + 0.37)], [gearbox(1)], seed=0)
+    assert "at one angle" not in report.sentence

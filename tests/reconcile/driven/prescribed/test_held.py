@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 
 from reconcile.driven import reconcile_driven
 from reconcile.driven.channels import Driven, driven_of
+from reconcile.driven.prescribed.analysis import Findings
 from reconcile.driven.prescribed.faults import doubted_sizes, held_motions
-from reconcile.driven.prescribed.resistance import Motion
+from reconcile.driven.prescribed.resistance import DRAG, ELASTIC, GRADUAL, PLAY, STRUCTURES, Motion, Structure
 from reconcile.driven.prescribed.rich import beside_law
+from reconcile.driven.prescribed.told import undecided
+from reconcile.report.page import page
 from signals.recording import Recording
 from sim.core.response import Channel
 from sim.presets import preset
@@ -171,4 +176,22 @@ def test_friction_that_falls_with_speed_is_not_called_dry_friction() -> None:
     report = reconcile_driven(SPEC, runs, seed=1)
     assert report.verdict == "unknown_physics", report.sentence
     assert not any(c.named for c in report.causes)
-    assert "Nearest comes" in report.sentence
+    assert "Nearest comes" in report.sentence or "comes as near as any" in report.sentence
+    rows = report.pictures["ranking"]
+    assert isinstance(rows, list) and not any(row["named"] for row in rows), "the chart names none either"
+    assert len(rows) == len(STRUCTURES) == len({c.score for c in report.causes}), "every law tried is in the table"
+    told = page(report)
+    assert "the nearest law" in told and "the named law" not in told and "with what comes nearest in it" in told
+
+
+def found(*errors: tuple[Structure, float]) -> Findings:
+    """Structures in the order of the answer with the mean square error each left on the stretch kept for choosing."""
+    trials = tuple((SimpleNamespace(structure=s, values={}), np.full(8, error)) for s, error in errors)
+    chosen = SimpleNamespace(structure=errors[0][0], values={})
+    return cast(Findings, SimpleNamespace(trials=trials, chosen=chosen, rival=None, outcomes=()))
+
+
+def test_a_wider_law_that_left_less_is_told_beside_the_simpler_one() -> None:
+    (said,) = undecided(found((ELASTIC, 1.0), (GRADUAL, 0.7), (PLAY, 0.8), (DRAG, 3.0)))
+    assert GRADUAL.words in said and PLAY.words in said and DRAG.words not in said and "not surely less" in said
+    assert undecided(found((ELASTIC, 1.0), (PLAY, 1.2))) == ()
