@@ -9,7 +9,10 @@ shares no code with `sim/` (an import rule checks it): classical Runge-Kutta wit
 stiffness, Hunt-Crossley contact with LuGre friction in a loose fit, raised-cosine tooth cracks, supports with rounded
 corners. Its healthy machine is checked against the reference solutions. Every case has its own hidden parameters
 (within 10 %), a drift between baseline and test (0.15 of that spread), speed that wanders by 0.1 to 0.5 % and is up to
-0.5 % off the stated one, cage slip up to 2 %, a transfer path and gain for every sensor, and coloured noise.
+0.5 % off the stated one, cage slip up to 2 %, a transfer path and gain for every sensor, and coloured noise. Every
+recording lasts 1.2 s, which is shorter than users are advised to record: of the slow shaft that is some ten turns. What
+the engine supposes of a machine's numbers and of drift has the same form and size (uniform within 10 %, 0.15 of it; of
+slip 3 %): on machines that lie farther from their file it will do worse than here.
 
 **Pits prove less than other laws.** Their form is the generator's own (a trapezoid; the product's is the arc of a
 ball over sharp edges, down to a floor). But both add it to the gap of a ball without mass, a Hertz point of exponent

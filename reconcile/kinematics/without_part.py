@@ -64,8 +64,8 @@ def without_a_part(
         return of_none
     struck = new_blows(tests, baselines, tie)
     driven = None if struck is None else driven_report(*struck, tests)
-    impacts = driven or _hidden(tie, tests, baselines, every, heard, seed)
-    impacts = impacts or _of_impacts(known, tie, tests, baselines, every, seed)
+    hidden = None if driven or series else _hidden(tie, tests, baselines, every, heard, seed)
+    impacts = driven or hidden or _of_impacts(known, tie, tests, baselines, every, seed)
     if impacts is not None:
         return impacts
     stands_out = bool(series and grown) and grown[0].growth_db > series[0].middle_db + STANDS_OUT_DB

@@ -17,6 +17,8 @@ MAX_CHANNELS = 512
 MAX_PULSES = 1_000_000
 MOST_NAME = 80
 ALIKE = 0.8
+WORDS = "operating."
+"""Before the keys of an operating point in words."""
 """An unknown key this similar to a known one (difflib's ratio) is taken for a slip of the pen and refused."""
 
 Text = Annotated[str, Field(max_length=200)]
@@ -134,7 +136,7 @@ class Description(_Part):
         if not isinstance(given, Mapping):
             return given
         if _tells_no_speed(given.get("operating")):
-            return {**given, "operating": None}
+            return {**given, "operating": None, **_in_words(given["operating"])}
         operating, shaft = given.get("operating"), _only_shaft(given)
         if not isinstance(operating, Mapping) or "shaft" in operating or shaft is None:
             return given
@@ -202,7 +204,11 @@ def remarks(description: Description) -> tuple[str, ...]:
 
 
 def _belongs(place: str) -> str:
-    """Where a field of the operating point was meant, that stands at the top."""
+    """Where a field of the operating point was meant, that stands at the top; why one in words counts for nothing."""
+    if place.startswith(WORDS):
+        return ": it is no number, so no operating point is stated"
+    if place in ("rpm", "speed_rpm"):
+        return "; it belongs under `operating`, as `operating.speed_hz`: revolutions a minute over 60"
     return f"; it belongs under `operating`, as `operating.{place}`" if place in OperatingEntry.model_fields else ""
 
 
@@ -241,6 +247,11 @@ def _tells_no_speed(operating: object) -> bool:
     if not isinstance(operating, Mapping) or not isinstance(operating.get("shaft", ""), str):
         return False
     return all(value is None or (isinstance(value, str) and not _number(k, value)) for k, value in operating.items())
+
+
+def _in_words(operating: Mapping[str, object]) -> dict[str, object]:
+    """What stands there in words, as keys that mean nothing here, so that it is said; but for the shaft's name."""
+    return {f"{WORDS}{k}": v for k, v in operating.items() if v is not None and k != "shaft"}
 
 
 def _number(key: object, text: str) -> bool:

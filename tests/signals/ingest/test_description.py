@@ -130,6 +130,18 @@ def test_an_operating_point_without_speed_is_none(none: dict | None) -> None:
     assert read_description({"channels": [CHANNEL], "operating": none}).operating is None
 
 
+def test_a_speed_in_words_counts_for_nothing_and_that_is_said() -> None:
+    found = read_description({"channels": [CHANNEL], "operating": {"shaft": "s", "speed_hz": "thirty", "load": None}})
+    assert found.operating is None
+    (said,) = remarks(found)
+    assert said == "operating.speed_hz: is not used here: it is no number, so no operating point is stated"
+
+
+def test_a_speed_in_another_unit_at_the_top_is_told_where_it_belongs() -> None:
+    (said,) = remarks(read_description({"channels": [CHANNEL], "speed_rpm": 1800}))
+    assert "operating.speed_hz" in said and "over 60" in said
+
+
 @pytest.mark.parametrize(
     "half",
     [
