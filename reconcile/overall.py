@@ -31,7 +31,8 @@ ACCELERATION = "m/s^2"
 
 @dataclass(frozen=True, kw_only=True)
 class Level:
-    """One channel at one operating point; `before` None without a baseline there. Velocities in m/s."""
+    """One channel at one operating point; `before` None without a baseline there, `elsewhere` whether there are some at
+    others. Velocities in m/s."""
 
     channel: str
     at: str
@@ -40,6 +41,7 @@ class Level:
     before: float | None
     velocity_now: float | None
     velocity_before: float | None
+    elsewhere: bool = False
 
 
 def with_levels(report: Report, tests: Sequence[Recording], baselines: Sequence[Recording]) -> Report:
@@ -73,6 +75,7 @@ def levels(tests: Sequence[Recording], baselines: Sequence[Recording]) -> list[L
                     channel=channel.name, at=_at(test), unit=channel.unit, now=own.rms, velocity_now=own.velocity,
                     before=None if other is None else other.rms,
                     velocity_before=None if other is None else other.velocity,
+                    elsewhere=other is None and bool(baselines),
                 )
             )  # fmt: skip
     return found

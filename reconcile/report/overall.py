@@ -16,6 +16,7 @@ NOTE = (
     "Root mean square of the whole record. It tells that something changed, not what: resonances, speed and load move "
     "it as well."
 )
+ELSEWHERE = " Where no baseline stands, none was recorded at that speed and load."
 VELOCITY = " Velocity: between 10 and 1000 Hz, the quantity of ISO 20816-1."
 
 
@@ -26,12 +27,14 @@ def overall(report: Report) -> Markup:
         return Markup("")
     based = any(_number(row.get("before")) is not None for row in rows)
     moving = any(_number(row.get("velocity_now")) is not None for row in rows)
-    heads = ["channel", "operating point", *(["baseline"] if based else []), "now", *(["change"] if based else [])]
+    heads = ["channel", "operating point, as stated", *(["baseline"] if based else []), "now"]
+    heads += ["change"] if based else []
     if moving:
         heads += [*(["velocity, baseline"] if based else []), "velocity, now"]
     body = [_row(row, based, moving) for row in rows[:SHOWN]]
     more = f" {len(rows) - SHOWN} further rows are in report.json." if len(rows) > SHOWN else ""
-    note = tag("p", f"{NOTE}{VELOCITY if moving else ''}{more}", css="muted")
+    away = ELSEWHERE if any(row.get("elsewhere") is True for row in rows) else ""
+    note = tag("p", f"{NOTE}{away}{VELOCITY if moving else ''}{more}", css="muted")
     return section("Overall level", table(heads, body), note)
 
 

@@ -88,3 +88,12 @@ def test_the_page_tells_them_with_their_change() -> None:
     assert "2 times (+6.0 dB)" in said and "ISO 20816-1" in said and "1.41 m/s²" in said
     alone = overall(with_levels(bare, [recorded(2.0, unit="m")], []))
     assert "change" not in alone.split("</p>")[0].split("<p")[0] and "velocity" not in alone.lower()
+
+
+def test_a_baseline_at_another_speed_is_said_to_be_missing_here() -> None:
+    report = Report(verdict="nothing_missing", sentence="Quiet.", level="kinematics", where=Where())
+    said = "none was recorded at that speed and load"
+    test, baseline = recorded(2.0, speed_hz=45.0), recorded(1.0, speed_hz=30.0)
+    assert said in overall(with_levels(report, [test], [baseline]))
+    for others in ([], [recorded(1.0, speed_hz=45.0)]):
+        assert said not in overall(with_levels(report, [test], others))
