@@ -6,11 +6,11 @@ SECTIONS = {
     "baker": "No version of the engine had met these before their run. Two ran at once, beside other work, which "
     "core-seconds show. The little that a likely effect leaves of lines is a remark beside its name, an order of no "
     "part that rose goes before a name that leaves the level change as it is, and rings that nothing speaks for are "
-    "not all simulated ([decision](decisions/reconcile-adequacy.md), [decision](decisions/reconcile-leftover.md)); "
+    "not all simulated ([decision](decisions/reconcile-refused.md), [decision](decisions/reconcile-leftover.md)); "
     "these cases had no part in it.",
     "twelfth": "No version of the engine had met these before their run: the plan but for tw002 by one engine. Two ran "
     "at once, beside other work, which core-seconds show. What changed for sure and is like nothing known is told as "
-    "unknown physics ([decision](decisions/reconcile-adequacy.md)); these cases had no part in it.",
+    "unknown physics ([decision](decisions/reconcile-refused.md)); these cases had no part in it.",
     "xenial": "No version of the engine had met these before their run. Two ran at once, beside other work, which "
     "core-seconds show. What sound machines may change is known from 144 simulated pairs for 48 "
     "([decision](decisions/reconcile-null-pairs.md)); these cases had no part in it. x001, x024, x032, x034, x043 and "

@@ -191,7 +191,7 @@ RULES = (
         "h021, a crack named a broken tooth beside a loose fit",
     ),
     (
-        "lines alone tell of unknown physics from twice the usual on ([decision](decisions/reconcile-adequacy.md))",
+        "lines alone tell of unknown physics from twice the usual on ([decision](decisions/reconcile-refused.md))",
         "the sound h034 and e127, the loose pedestals h062 and h107 and the loose fit e141, unknown before",
     ),
     (
@@ -201,7 +201,7 @@ RULES = (
     (
         (
             "impacts of a second effect count beside a play, but for those at the lines of the play's own bearing "
-            "([decision](decisions/reconcile-leftover.md))"
+            "([decision](decisions/reconcile-second-rules.md))"
         ),
         "h035, a loose fit with a pit on the other shaft told beside an eccentric gear; both named since, gain 0.52",
     ),
@@ -242,7 +242,7 @@ RULES = (
     (
         (
             "a second effect takes no more than a quarter of what it adds at the other speeds, beside a play nothing "
-            "([decision](decisions/reconcile-leftover.md))"
+            "([decision](decisions/reconcile-second-rules.md))"
         ),
         "w024, a loose fit of 36 um with waves of another bearing's race beside it that are not there; alone since",
     ),
@@ -250,7 +250,7 @@ RULES = (
         (
             "a lead by patterns does not carry what leaves much of single lines where another effect is as likely, "
             "feature by feature; it comes behind one that leaves less "
-            "([decision](decisions/reconcile-adequacy.md))"
+            "([decision](decisions/reconcile-refused.md))"
         ),
         (
             "m009, a loose fit of 23 um told as a support that stiffens (held-out gain 0.30); named with its place "
@@ -260,7 +260,7 @@ RULES = (
     (
         (
             "a second effect whose gain is one speed's alone adds twice as much as others must "
-            "([decision](decisions/reconcile-leftover.md))"
+            "([decision](decisions/reconcile-second-rules.md))"
         ),
         "m008, an unbalance with a rub beside it that is not there; alone since",
     ),

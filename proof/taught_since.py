@@ -15,7 +15,7 @@ SINCE = (
         (
             "lines that changed for sure and are like no known effect's are none's, however little one leaves of them; "
             "what is left of lines that did not says nothing "
-            "([decision](decisions/reconcile-adequacy.md))"
+            "([decision](decisions/reconcile-refused.md))"
         ),
         (
             "x034, x043, c045, i070 and w055, effects that no library has, not decidable before (and z036, a known "
@@ -25,25 +25,25 @@ SINCE = (
     (
         (
             "lines to which an effect was not fitted are unknown physics from three times the usual on "
-            "([decision](decisions/reconcile-adequacy.md))"
+            "([decision](decisions/reconcile-refused.md))"
         ),
         "x032, a parallel offset told as unknown physics; not decidable since",
     ),
     (
-        "lines of a struck bearing's cage are no second part ([decision](decisions/reconcile-pairs.md))",
+        "lines of a struck bearing's cage are no second part ([decision](decisions/reconcile-pairs-measured.md))",
         "x001, a pit beside which another bearing's was named that is not there",
     ),
     (
         (
             "at one operating point nothing that strikes nowhere stands beside a first that is open "
-            "([decision](decisions/reconcile-pairs.md))"
+            "([decision](decisions/reconcile-pairs-measured.md))"
         ),
         "x024, a loose ring and a cracked tooth named a wider clearance and a cracked shaft; a set there since",
     ),
     (
         (
             "from 12 of log evidence on, the little that an effect leaves of lines is a remark "
-            "([decision](decisions/reconcile-adequacy.md))"
+            "([decision](decisions/reconcile-refused.md))"
         ),
         "tw052, a loose ring, not decidable before, named since; tw010, a loose foot, in a set since",
     ),
