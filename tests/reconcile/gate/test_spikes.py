@@ -111,3 +111,14 @@ def test_they_change_no_answer() -> None:
         assert reports[0].verdict == reports[1].verdict
         assert [c.term for c in reports[0].causes] == [c.term for c in reports[1].causes]
         assert any("2 single samples" in text for text in reports[0].where.limits)
+
+
+@pytest.mark.parametrize(("deviations", "told"), [(28.0, False), (32.0, True), (45.0, True)])
+def test_a_sample_is_a_spike_from_thirty_deviations_of_what_its_neighbours_do_not_tell(
+    deviations: float, told: bool
+) -> None:
+    for x in (sound(6, 0.5), 1e-3 * sound(7, 0.5), np.random.default_rng(8).standard_normal(10_000)):
+        untold = x[1:-1] - (x[:-2] + x[2:]) / 2
+        usual = 1.4826 * float(np.median(np.abs(untold)))
+        x[5000] = (x[4999] + x[5001]) / 2 + deviations * usual
+        assert spikes(x).tolist() == ([5000] if told else [])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reconcile.judge.pooled import Pooling
-from reconcile.judge.screen import Screen, judge
+from reconcile.judge.screen import Screen, judge, together
 from reconcile.judge.space import Fitted, Library, fit_space
 from reconcile.machine.decide import DETECT_P, chance
 from tests.reconcile.judge.made import EFFECTS, FAMILIES, FEATURES, MEMBERS, changes, library, world
@@ -172,3 +172,12 @@ def test_lines_that_sound_machines_do_not_repeat_give_no_alarm_without_a_pattern
     assert steady.lines_asked and not rattling.lines_asked and not judge((space(),), observed).lines_asked
     np.testing.assert_array_equal(steady.evidence, rattling.evidence)
     assert steady.p_best == rattling.p_best
+
+
+@pytest.mark.parametrize(("both", "first"), [(6.5, 0), (6.8, 1), (10.0, 1)])
+def test_what_two_views_tell_outdoes_what_one_tells_by_half_of_the_fainter(both: float, first: int) -> None:
+    """One effect has ten by one view and nothing by the other: two thirds of that by both are as much."""
+    one, other = np.array([10.0, both]), np.array([0.0, both])
+    for views in ([one, other], [other, one], [one, other - 1.0, other], [one, other, other, other]):
+        assert int(np.argmax(together(views))) == first
+    assert np.array_equal(together([one]), one)

@@ -59,3 +59,17 @@ def test_levels_are_fitted_where_there_are_any() -> None:
     spectral = np.arange(SIZE) % 3 == 0
     assert np.array_equal(levels(made, spectral).fit, made.fit & spectral)
     assert levels(made, np.zeros(SIZE, dtype=bool)) is made
+
+
+@pytest.mark.parametrize(("power", "followed"), [(6.0, False), (10.0, True)])
+def test_a_direction_is_followed_by_more_than_half_from_eight_squared_deviations_on(
+    power: float, followed: bool
+) -> None:
+    """What no draw has is as large as that: weaker directions are left to chance, stronger ones fit what is seen."""
+    pattern = np.where(np.arange(SIZE) % 2, 1.0, -1.0)
+    drift, sigma = pattern[None] / 3.0, np.full(SIZE, (SIZE // 2 / power) ** 0.5)
+    share = retuned(drift, split(pattern), sigma) / pattern
+    assert np.ptp(share) < 1e-9 and bool(share[0] > 0.5) is followed
+    apart = pattern / 2**0.5
+    _, used = forecast(np.stack([apart, -apart]), (0, 1), split(np.zeros(SIZE)), sigma)
+    assert (used > 1.5) is followed

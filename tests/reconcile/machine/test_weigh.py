@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
+
 from reconcile.machine.decide import decide
-from reconcile.machine.weigh import merged_weights, of_the_set
+from reconcile.machine.weigh import credible_set, merged_weights, of_the_set
 from tests.reconcile.machine.test_decide import NAMES, screen
 
 
@@ -24,3 +26,12 @@ def test_a_place_behind_by_pattern_is_shown_where_only_impacts_tell() -> None:
     weights = merged_weights(screen([2.9, -8.0]))
     chosen = (NAMES[1], NAMES[0])
     assert of_the_set(weights, chosen) == {NAMES[1]: 0.5, NAMES[0]: 0.5}
+
+
+@pytest.mark.parametrize(("ahead", "named"), [(2.8, False), (2.9, False), (3.0, True), (4.0, True)])
+def test_a_name_leads_its_next_rival_by_three_of_log_evidence(ahead: float, named: bool) -> None:
+    """A loose fit was named a support that stiffens, 2.8 ahead of the fit (f007 of the proof)."""
+    found = decide(screen([20.0, 20.0 - ahead]), views=9)
+    assert found.word == ("explained" if named else "ambiguous")
+    assert found.chosen == (NAMES[:1] if named else NAMES[:2])
+    assert credible_set(merged_weights(screen([20.0, 20.0 - ahead]))) == found.chosen
