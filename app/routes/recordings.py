@@ -91,7 +91,8 @@ def _document(text: bytes, max_depth: int) -> object:
     try:
         json_text.check(text, max_depth)
     except json_text.NotStrictJson as error:
-        raise SpecError(Problem(field="description", message=str(error).replace("the body", "it"))) from error
+        field, message = error.field or "description", str(error).replace("the body", "it")
+        raise SpecError(Problem(field=field, message=message, given=error.given)) from error
     return json.loads(text)
 
 
