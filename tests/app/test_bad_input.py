@@ -197,6 +197,7 @@ def test_declared_length_is_refused_at_once(client: httpx.Client) -> None:
         ("GET", "/v1/jobs?limit=0", 422),
         ("GET", "/v1/jobs?limit=1000", 422),
         ("GET", "/v1/jobs?status=happy", 422),
+        ("GET", "/v1/jobs?kind=nonsense", 422),
         ("GET", "/v1/jobs?sort=colour", 422),
         ("GET", "/v1/jobs?cursor=!!!", 422),
         ("GET", "/v1/jobs?cursor=e30", 422),
