@@ -22,6 +22,7 @@ from app.cli.choice import machine_document, read_machine
 from app.cli.files import check_folder, local_path
 from app.cli.parameters import read_parameters
 from app.cli.processes import processes
+from app.cli.seed import seed
 from jobs.reconciliations.machine import bare_kinematics, read_form
 from reconcile.entry import reconcile_recordings
 from reconcile.gate.bridge import FILLED
@@ -47,13 +48,6 @@ MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
 
 
-def whole(text: str) -> int:
-    """A seed: 0 or above."""
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"is no seed (given {text!r}); allowed: a whole number from 0 on")
-    return int(text)
-
-
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
@@ -75,7 +69,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="folder for report.json, report.html (earlier ones there are replaced)",
     )
-    parser.add_argument("--seed", type=whole, default=0, help="seed of the atlas and of the bootstrap")
+    parser.add_argument("--seed", type=seed, default=0, help="seed of the atlas and of the bootstrap")
     parser.add_argument("--jobs", metavar="N", type=int, default=2, help="processes that simulate (default: 2)")
     parser.add_argument(
         "--atlas",
