@@ -22,6 +22,7 @@ from app.cli.choice import machine_document, read_machine
 from app.cli.files import check_folder, local_path
 from app.cli.parameters import read_parameters
 from app.cli.processes import processes
+from app.cli.recorded import read
 from app.cli.seed import seed
 from jobs.reconciliations.machine import bare_kinematics, read_form
 from reconcile.entry import reconcile_recordings
@@ -34,7 +35,6 @@ from reconcile.report import write_report
 from reconcile.report.write import PAGE, REPORT
 from reconcile.told import about
 from reconcile.verdict import Report
-from signals.ingest import ingest
 from signals.recording import Recording
 from sim import presets
 from sim.assembly.assemble import assemble
@@ -118,7 +118,7 @@ def _recording(path: Path, notes: list[str]) -> Recording:
     """A recording, labelled with its file as it was given; a refusal says which file too, and so do the `notes` that
     reading it adds."""
     try:
-        found = ingest(path)
+        found = read(path)
         notes += [f"{path}: {remark}" for remark in found.remarks]
         return replace(found.recording, label=str(path))
     except SpecError as error:
