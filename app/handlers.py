@@ -78,10 +78,15 @@ async def _http(request: Request, error: Exception) -> Response:
         slug=_SLUGS.get(status, f"http-{status}"),
         status=status,
         detail=_DETAILS.get(status, str(error.detail)),
-        fields=[_no_such_address(request.url.path)] if status == 404 else (),
+        fields=[_no_such_address(request.url.path) if status == 404 else _as_a_whole(str(error.detail))],
         headers=dict(error.headers or {}),
     )
     return problems.response(told, request.url.path)
+
+
+def _as_a_whole(said: str) -> problems.FieldError:
+    """What the framework refuses without a field."""
+    return problems.FieldError(field="request", message=said)
 
 
 def _no_such_address(path: str) -> problems.FieldError:

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from http import HTTPStatus
 
-from pydantic import BaseModel
+from pydantic import BaseModel, field_validator
 from pydantic_core import ErrorDetails
 from starlette.responses import Response
 
+from app.guards.json_text import writable
 from jobs import errors
 from jobs.validation import several_of, shown
 from sim.core.errors import Diverged, Meaningless, Problem, SidebandError, SpecError, UnknownName
@@ -22,7 +23,16 @@ MOST_FIELDS = 200
 """Fields of one reply that are told one by one: a reply is no larger for a request full of them."""
 
 
-class FieldError(BaseModel):
+class _Written(BaseModel):
+    """What is told can be written: an error's own text must never keep the error from being told."""
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _writable(cls, value: object) -> object:
+        return writable(value) if isinstance(value, str) else value
+
+
+class FieldError(_Written):
     """One field to change."""
 
     field: str
@@ -35,7 +45,7 @@ class FieldError(BaseModel):
     unit: str = ""
 
 
-class ProblemDocument(BaseModel):
+class ProblemDocument(_Written):
     """RFC 9457."""
 
     type: str

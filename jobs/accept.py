@@ -11,7 +11,7 @@ from jobs import transitions
 from jobs.budget import Budget
 from jobs.errors import BrokerAway, IdempotencyConflict, QueueFull, StoreFull, UnknownJob
 from jobs.identity import digest, job_id
-from jobs.kinds import lane_of
+from jobs.kinds import Kind, lane_of
 from jobs.limits import Limits
 from jobs.ports import ArtefactStore, Clock, Engine, JobCatalogue, Queue, Ticket
 from jobs.record import JobRecord
@@ -21,7 +21,7 @@ from jobs.status import Status
 
 log = logging.getLogger(__name__)
 
-KIND = "simulation"
+KIND = Kind.SIMULATION.value
 RESERVED_BYTES = 64 * 2**20
 """Space always left on the artefact store, so that the catalogue and the broker beside it can still write."""
 

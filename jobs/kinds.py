@@ -2,9 +2,27 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 from jobs.atlas.words import PIECE, ROUND
-from jobs.datasets.words import DATASET, PARTS, SHARD
+from jobs.datasets.words import ASSEMBLY, DATASET, PARTS, SHARD
 from jobs.ports import Lane
+from jobs.reconciliations.words import RECONCILIATION
+from jobs.recordings.words import RECORDING
+
+
+class Kind(StrEnum):
+    """Every kind there is."""
+
+    SIMULATION = "simulation"
+    RECORDING = RECORDING
+    RECONCILIATION = RECONCILIATION
+    DATASET = DATASET
+    DATASET_SHARD = SHARD
+    DATASET_ASSEMBLY = ASSEMBLY
+    ATLAS = ROUND
+    ATLAS_PIECE = PIECE
+
 
 INNER = (*PARTS, ROUND, PIECE)
 """Part of another job: left out of lists and counts, and nobody but that job decides over them."""

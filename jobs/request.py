@@ -15,6 +15,8 @@ OverrideValue = bool | float | str | dict[str, JsonValue] | None
 
 
 MAX_CHANNELS = 512
+MOST_SEED = 2**53 - 1
+"""The largest whole number below which JSON's numbers, doubles, hold every one."""
 DEFAULT_RATE_HZ = 30_000.0
 """One default for every way in. Labels reach 11.7 kHz at it: 17 mesh harmonics of the paper's machine."""
 
@@ -73,7 +75,7 @@ class SimulationRequest(MachineChoice):
     """Output rate, Hz; the signals are low-pass filtered before they are thinned to it."""
     channels: Annotated[Channels | None, OneWord] = None
     """Names of the outputs, or `all`; none: the engine's standard set."""
-    seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
+    seed: Annotated[int, Field(ge=0, le=MOST_SEED)] = 0
     """Seed of everything random in the machine. Bounded so that JSON numbers carry it exactly."""
     discard_transient: bool = True
     """Whether spectra, features and labels leave out the start-up transient. The signals always keep it."""

@@ -17,12 +17,12 @@ from typing import Any
 
 from app.cli.choice import read_machine
 from app.cli.files import json_text, read_json
+from app.cli.recorded import read
 from learn.classify import classify
 from learn.describe import sites
 from learn.gears.stage import stages
 from learn.model import default_model, load
 from reconcile.kinematics import KinematicSpec, described_kinematics, of_machine, read_kinematic_spec
-from signals.ingest import read_recording
 from signals.ingest.file import load_description
 
 
@@ -47,7 +47,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     model = load(arguments.model) if arguments.model is not None else default_model()
-    recording = read_recording(arguments.recording)
+    recording = read(arguments.recording).recording
     told = recording.operating or recording.tacho
     shaft = told.shaft if told is not None else None
     spec = _kinematics(arguments)

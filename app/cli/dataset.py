@@ -19,6 +19,7 @@ from tqdm import tqdm
 
 from app.cli import dataset_upload
 from app.cli.files import json_text, local_path, read_json
+from app.cli.seed import seed
 from sideband_datasets import Recipe, make_plan, read_recipe, recipe_named
 from sideband_datasets.folder import Progress, Settings, check_size, free_bytes, make, resume, unfinished, verify
 from sideband_datasets.folder.layout import CARD
@@ -51,7 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     checked = actions.add_parser("verify", help="look for damage, leaks and rows that differ", allow_abbrev=False)
     checked.add_argument("out", metavar="DIR", type=Path)
     checked.add_argument("--remake", metavar="K", type=int, default=0, help="make K rows again and compare every bit")
-    checked.add_argument("--seed", metavar="N", type=int, default=0, help="which rows are made again")
+    checked.add_argument("--seed", metavar="N", type=seed, default=0, help="which rows are made again")
     card = actions.add_parser("card", help="print the card of a dataset", allow_abbrev=False)
     card.add_argument("out", metavar="DIR", type=Path)
     sent = actions.add_parser("upload", help="put a dataset into a bucket, whole or not at all", allow_abbrev=False)

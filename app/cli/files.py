@@ -16,6 +16,7 @@ from typing import BinaryIO
 
 import numpy as np
 
+from app.guards.json_text import NotStrictJson, check_unicode
 from sim.core.errors import Problem, SpecError
 
 
@@ -48,7 +49,13 @@ def strict_json(text: str, field: str) -> object:
         return found
 
     try:
-        return json.loads(text, parse_constant=refuse, object_pairs_hook=unique)
+        document: object = json.loads(text, parse_constant=refuse, object_pairs_hook=unique)
+        check_unicode(document)
+        return document
+    except NotStrictJson as error:
+        raise SpecError(
+            Problem(field=f"{field}: {error.field}".removesuffix(": "), message=str(error), given=error.given)
+        ) from error
     except json.JSONDecodeError as error:
         raise SpecError(Problem(field=field, message=f"is not readable JSON: {error}")) from error
     except RecursionError as error:

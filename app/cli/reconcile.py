@@ -22,6 +22,8 @@ from app.cli.choice import machine_document, read_machine
 from app.cli.files import check_folder, local_path
 from app.cli.parameters import read_parameters
 from app.cli.processes import processes
+from app.cli.recorded import read
+from app.cli.seed import seed
 from jobs.reconciliations.machine import bare_kinematics, read_form
 from reconcile.entry import reconcile_recordings
 from reconcile.gate.bridge import FILLED
@@ -33,7 +35,6 @@ from reconcile.report import write_report
 from reconcile.report.write import PAGE, REPORT
 from reconcile.told import about
 from reconcile.verdict import Report
-from signals.ingest import ingest
 from signals.recording import Recording
 from sim import presets
 from sim.assembly.assemble import assemble
@@ -45,13 +46,6 @@ from store.atlas import AtlasFolder, default_atlas_folder
 NO_BASELINE = "there is no baseline: what was always so is not told from what has changed, and less can be named"
 MOST_FOREIGN = 5
 """A flat document with more reference names than this is a parameter file."""
-
-
-def whole(text: str) -> int:
-    """A seed: 0 or above."""
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"is no seed (given {text!r}); allowed: a whole number from 0 on")
-    return int(text)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -75,7 +69,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="folder for report.json, report.html (earlier ones there are replaced)",
     )
-    parser.add_argument("--seed", type=whole, default=0, help="seed of the atlas and of the bootstrap")
+    parser.add_argument("--seed", type=seed, default=0, help="seed of the atlas and of the bootstrap")
     parser.add_argument("--jobs", metavar="N", type=int, default=2, help="processes that simulate (default: 2)")
     parser.add_argument(
         "--atlas",
@@ -124,7 +118,7 @@ def _recording(path: Path, notes: list[str]) -> Recording:
     """A recording, labelled with its file as it was given; a refusal says which file too, and so do the `notes` that
     reading it adds."""
     try:
-        found = ingest(path)
+        found = read(path)
         notes += [f"{path}: {remark}" for remark in found.remarks]
         return replace(found.recording, label=str(path))
     except SpecError as error:

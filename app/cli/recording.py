@@ -15,8 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from app.cli.files import json_text
+from app.cli.recorded import read
 from learn.doubts import doubts
-from signals.ingest import ingest, report
+from signals.ingest import report
 
 FOUND = 1
 
@@ -30,7 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
-    found = ingest(arguments.description)
+    found = read(arguments.description)
     document: dict[str, Any] = report(found)
     if arguments.check:
         document["remarks"] = [*document["remarks"], *doubts(found.recording)]

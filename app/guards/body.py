@@ -68,12 +68,7 @@ class BodyGuard:
             else:
                 json_text.check(body, self._max_depth)
         except json_text.NotStrictJson as error:
-            return Told(
-                slug="not-json",
-                status=400,
-                detail=str(error),
-                fields=[FieldError(field="request", message=str(error), allowed="strict JSON")],
-            )
+            return _not_json(error)
         return body
 
     def _too_large(self, size: int) -> Told:
@@ -87,6 +82,12 @@ class BodyGuard:
             fields=[wrong],
             headers={"Connection": "close"},
         )
+
+
+def _not_json(error: json_text.NotStrictJson) -> Told:
+    field, place = error.field or "request", f"{error.field} " if error.field else ""
+    wrong = FieldError(field=field, message=str(error), given=error.given, allowed="strict JSON")
+    return Told(slug="not-json", status=400, detail=f"{place}{error}", fields=[wrong])
 
 
 def _wrong_type(given: str) -> Told:

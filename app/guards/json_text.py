@@ -1,13 +1,33 @@
-"""Reading JSON strictly (RFC 8259): no NaN or Infinity, no repeated keys, no numbers beyond a double, bounded depth."""
+"""Reading JSON strictly (RFC 8259): no NaN or Infinity, no repeated keys, no numbers beyond a double, bounded depth.
+
+An escape may name half of a surrogate pair (RFC 8259, section 8.2): text that no encoding can write and no store keep.
+"""
 
 from __future__ import annotations
 
 import json
 import math
+import re
+from collections.abc import Iterator
+
+_SURROGATE = re.compile("[\ud800-\udfff]")
+_ESCAPED = re.compile(rb"\\u[dD][89a-fA-F]")
+"""Where there is none, no text can hold a surrogate: UTF-8 has no bytes for them."""
+_SHOWN = 80
 
 
 class NotStrictJson(ValueError):
-    """The text is not acceptable JSON; the message says why."""
+    """The text is not acceptable JSON; the message says why. `field`: which part of it, dotted, where that is known;
+    `given`: what stands there, as it may be written."""
+
+    def __init__(self, message: str, *, field: str = "", given: str | None = None) -> None:
+        self.field, self.given = field, given
+        super().__init__(message)
+
+
+def writable(text: str) -> str:
+    """The text with lone surrogates as their escapes: what any encoding can write."""
+    return _SURROGATE.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def check(text: bytes, max_depth: int) -> None:
@@ -26,6 +46,34 @@ def check(text: bytes, max_depth: int) -> None:
         ) from error
     if _depth(document) > max_depth:
         raise NotStrictJson(f"the body is nested deeper than {max_depth} levels")
+    if _ESCAPED.search(text):
+        check_unicode(document)
+
+
+def check_unicode(document: object) -> None:
+    """Raise NotStrictJson at the first name or text that holds half of a surrogate pair."""
+    for path, text, what in _texts(document):
+        found = _SURROGATE.search(text)
+        if found:
+            half = writable(found[0])
+            message = f"{what} {half}, half of a surrogate pair, which cannot be written as Unicode"
+            given = text[max(0, found.start() - _SHOWN // 2) :][:_SHOWN]
+            raise NotStrictJson(message, field=path, given=writable(given))
+
+
+def _texts(document: object) -> Iterator[tuple[str, str, str]]:
+    """Every text with the path of its field, and every name with that of its object."""
+    left: list[tuple[str, object]] = [("", document)]
+    while left:
+        path, node = left.pop()
+        before = f"{path}." if path else ""
+        if isinstance(node, str):
+            yield path, node, "holds"
+        elif isinstance(node, dict):
+            yield from ((path, name, "has a name that holds") for name in node)
+            left += reversed([(f"{before}{name}", child) for name, child in node.items()])
+        elif isinstance(node, list):
+            left += reversed([(f"{before}{i}", child) for i, child in enumerate(node)])
 
 
 def _constant(name: str) -> float:

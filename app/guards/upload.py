@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 
-from starlette.datastructures import Headers
+from starlette.datastructures import FormData, Headers
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app import problems
@@ -62,7 +65,14 @@ class UploadGuard:
             return self._too_large(int(declared))
         if self._arriving >= AT_ONCE:
             detail = f"{self._arriving} uploads are arriving, {AT_ONCE} may; try again"
-            return Told(slug="busy", status=429, detail=detail, headers={"Retry-After": "10"})
+            wrong = FieldError(
+                field="uploads",
+                location="service",
+                message="are all that may arrive at once",
+                given=self._arriving,
+                allowed=f"< {AT_ONCE}",
+            )
+            return Told(slug="busy", status=429, detail=detail, fields=[wrong], headers={"Retry-After": "10"})
         return None
 
     def _counted(self, receive: Receive) -> Receive:
@@ -92,7 +102,37 @@ class UploadGuard:
 
     def _too_slow(self, seconds: float) -> Told:
         detail = f"the upload took longer than {seconds:g} s"
-        return Told(slug="timeout", status=408, detail=detail, headers={"Connection": "close"})
+        wrong = FieldError(field="request", message="took too long", allowed=f"<= {seconds:g}", unit="s")
+        return Told(slug="timeout", status=408, detail=detail, fields=[wrong], headers={"Connection": "close"})
+
+
+@asynccontextmanager
+async def multipart(
+    request: Request, *, max_files: int, max_fields: int, max_part_size: int
+) -> AsyncIterator[FormData]:
+    """The parts of a form; UploadRefused with a field where they cannot be told apart."""
+    try:
+        form = await request.form(max_files=max_files, max_fields=max_fields, max_part_size=max_part_size)
+    except HTTPException as error:
+        raise UploadRefused(_no_form(str(error.detail), max_part_size)) from error
+    try:
+        yield form
+    finally:
+        await form.close()
+
+
+def _no_form(said: str, most: int) -> Told:
+    """By the words of the parser, which has no codes."""
+    field, location, message, allowed, unit = "request", "body", said[:1].lower() + said[1:].rstrip("."), MULTIPART, ""
+    if "boundary" in said:
+        field, location, allowed = "Content-Type", "header", f"{MULTIPART}; boundary=..."
+        message = "names no boundary of the parts"
+    elif "maximum size" in said:
+        field, message, allowed, unit = "description", "is too large", f"<= {most}", "bytes"
+    elif said.startswith("Too many"):
+        allowed = "the parts description and file"
+    wrong = FieldError(field=field, location=location, message=message, allowed=allowed, unit=unit)
+    return Told(slug="bad-request", status=400, detail=f"{field} {message}", fields=[wrong])
 
 
 def _wrong_type(given: str) -> Told:

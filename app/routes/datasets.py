@@ -33,6 +33,7 @@ from jobs.datasets.request import DatasetRequest
 from jobs.datasets.stored import StoredDataset
 from jobs.datasets.words import DATASET
 from jobs.errors import JobGone, UnknownJob
+from jobs.kinds import Kind
 from jobs.record import JobRecord
 from jobs.status import Status
 from sideband_datasets import Recipe
@@ -112,7 +113,7 @@ def list_datasets(
     cursor: Annotated[str | None, Query(max_length=300)] = None,
 ) -> JobPage:
     """Jobs of datasets, a page at a time; `next` is the address of the following page."""
-    return list_jobs(request, response, state, status, None, DATASET, sort, limit, cursor)
+    return list_jobs(request, response, state, status, None, Kind.DATASET, sort, limit, cursor)
 
 
 @router.get(f"{ADDRESS}/recipes", response_model=RecipesView, responses=problems(401))

@@ -14,7 +14,7 @@ from app.schemas import JobPage, JobView, Reply, job_view
 from app.state import Principal, State
 from jobs.control import Caller, cancel, delete
 from jobs.errors import JobGone
-from jobs.kinds import INNER
+from jobs.kinds import INNER, Kind
 from jobs.ports import JobQuery
 from jobs.recordings.words import RECORDING
 from jobs.status import Status
@@ -39,7 +39,7 @@ def list_jobs(
     state: State,
     status: Annotated[list[Status] | None, Query()] = None,
     preset: Annotated[str | None, Query(max_length=80)] = None,
-    kind: Annotated[str | None, Query(max_length=40)] = None,
+    kind: Annotated[Kind | None, Query()] = None,
     sort: Annotated[Sort, Query()] = "-created_at",
     limit: Annotated[int, Query(ge=1, le=200)] = 50,
     cursor: Annotated[str | None, Query(max_length=300)] = None,
@@ -52,7 +52,7 @@ def list_jobs(
     query = JobQuery(
         statuses=tuple(status or ()),
         preset=preset,
-        kind=kind,
+        kind=None if kind is None else kind.value,
         other_than=(RECORDING, *INNER) if kind is None else (),
         sort=field,
         descending=sort.startswith("-"),

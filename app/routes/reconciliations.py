@@ -16,6 +16,7 @@ from app.schemas import JobPage, JobView, Reply, SubmittedView, job_view, submit
 from app.state import AppState, HolderBudget, Principal, State
 from jobs.control import delete
 from jobs.errors import JobGone, UnknownArtefact, UnknownJob
+from jobs.kinds import Kind
 from jobs.reconciliations.accept import accept_reconciliation
 from jobs.reconciliations.request import ReconciliationRequest
 from jobs.reconciliations.words import MACHINE, PAGE, RECONCILIATION, REPORT
@@ -101,7 +102,7 @@ def list_reconciliations(
     cursor: Annotated[str | None, Query(max_length=300)] = None,
 ) -> JobPage:
     """Jobs of reconciliations, a page at a time; `next` is the address of the following page."""
-    return list_jobs(request, response, state, status, None, RECONCILIATION, sort, limit, cursor)
+    return list_jobs(request, response, state, status, None, Kind.RECONCILIATION, sort, limit, cursor)
 
 
 @router.get(f"{ADDRESS}/{{job_id}}", response_model=ReconciliationView, responses=problems(401, 404, 410, 503))

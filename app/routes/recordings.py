@@ -11,7 +11,7 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.datastructures import FormData, UploadFile
 
 from app.guards import json_text
-from app.guards.upload import MULTIPART
+from app.guards.upload import MULTIPART, multipart
 from app.paging import cursor_of, read_cursor, relative
 from app.reading import stored
 from app.recording_views import RecordingDetail, RecordingPage, RecordingView, SentView, fields, stage_of
@@ -28,9 +28,11 @@ from jobs.record import JobRecord
 from jobs.recordings.accept import Upload, accept_recording
 from jobs.recordings.words import RECORDING
 from sim.core.errors import Problem, SpecError
+from sim.core.near import did_you_mean
 
 router = APIRouter(tags=["recordings"])
 ADDRESS = "/v1/recordings"
+PARTS = ("description", "file")
 DESCRIPTION_BYTES = 16 * 2**20
 """A long list of pulse times stays below."""
 _SENT: dict[str, Any] = {
@@ -61,11 +63,9 @@ async def send(
 
     The same content is kept once. What the worker finds wrong is told in `refusal`, with field or place.
     """
-    async with request.form(max_files=2, max_fields=4, max_part_size=DESCRIPTION_BYTES) as form:
-        document = _document(await _text(form), state.settings.max_json_depth)
-        file = form.get("file")
-        if not isinstance(file, UploadFile):
-            raise SpecError(Problem(field="file", message="is required", allowed="a file"))
+    async with multipart(request, max_files=2, max_fields=4, max_part_size=DESCRIPTION_BYTES) as form:
+        file = _file(form)
+        document = _document(await _text(form["description"]), state.settings.max_json_depth)
         name = named(principal, submitter) or f"anonymous-{uuid.uuid4().hex[:12]}"
         upload = Upload(name=file.filename or "", content=file.file)
         taken = await run_in_threadpool(accept_recording, state.desk(), document, upload, submitter=name)
@@ -73,11 +73,32 @@ async def send(
     return SentView.model_validate({**fields(taken.record), "created": taken.created})
 
 
-async def _text(form: FormData) -> bytes:
+def _file(form: FormData) -> UploadFile:
+    """The part with the data, once every part is there; what else was sent may be a slip of its name."""
+    file = form.get("file")
+    wrong = [Problem(field="description", message="is required", allowed="a JSON object")] * ("description" not in form)
+    if not isinstance(file, UploadFile):
+        wrong.append(Problem(field="file", message="is required", allowed="a file"))
+    if wrong:
+        others = [name for name in dict.fromkeys(form) if name not in PARTS]
+        message = "is not a part that this address takes"
+        wrong += [
+            Problem(field=name[:120], message=message + did_you_mean(name, PARTS), allowed=", ".join(PARTS))
+            for name in others
+        ]
+    wrong += [
+        Problem(field=name, message="is there more than once", given=len(form.getlist(name)), allowed="one part")
+        for name in PARTS
+        if len(form.getlist(name)) > 1
+    ]
+    if wrong:
+        raise SpecError(wrong)
+    assert isinstance(file, UploadFile)
+    return file
+
+
+async def _text(part: UploadFile | str) -> bytes:
     """The description, sent as a field or as a file."""
-    part = form.get("description")
-    if part is None:
-        raise SpecError(Problem(field="description", message="is required", allowed="a JSON object"))
     if isinstance(part, str):
         return part.encode()
     text = await part.read(DESCRIPTION_BYTES + 1)
@@ -91,7 +112,8 @@ def _document(text: bytes, max_depth: int) -> object:
     try:
         json_text.check(text, max_depth)
     except json_text.NotStrictJson as error:
-        raise SpecError(Problem(field="description", message=str(error).replace("the body", "it"))) from error
+        field, message = error.field or "description", str(error).replace("the body", "it")
+        raise SpecError(Problem(field=field, message=message, given=error.given)) from error
     return json.loads(text)
 
 

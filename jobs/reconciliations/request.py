@@ -16,6 +16,7 @@ from pydantic import (
 )
 
 from jobs.reconciliations.machine import check_preset, read_form
+from jobs.request import MOST_SEED
 from jobs.validation import problems_of
 from reconcile.entry import MOST_RECORDINGS
 from sim import presets
@@ -86,7 +87,7 @@ class ReconciliationRequest(SpecModel):
     """Ids of recordings of the same machine when it was sound."""
     budget: Literal["quick", "full"] = "quick"
     """How much is simulated beyond the atlas: the best few effects, or more of them (docs/reconcile.md)."""
-    seed: Annotated[int, Field(ge=0, le=2**53 - 1)] = 0
+    seed: Annotated[int, Field(ge=0, le=MOST_SEED)] = 0
     """Seed of the atlas and of the bootstrap."""
 
     @model_validator(mode="wrap")

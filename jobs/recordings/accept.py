@@ -14,9 +14,8 @@ from jobs.accept import RESERVED_BYTES, Acceptance, Desk, check_queue, hand_over
 from jobs.errors import StoreFull
 from jobs.identity import job_id
 from jobs.record import Cost
+from jobs.recordings.described import check_kinematics
 from jobs.recordings.words import READERS_VERSION, RECORDING, upload_key
-from reconcile.kinematics import described_kinematics
-from reconcile.kinematics.families import ties
 from signals.ingest import FORMATS, Bounds, check_units, read_description, suffix_of
 from sim.core.errors import Problem, SpecError
 
@@ -74,9 +73,7 @@ def _check_description(document: object) -> None:
     """Whatever can be refused before the file is looked at."""
     description = read_description(document)
     check_units(description)
-    spec = described_kinematics(description)
-    if spec is not None and description.operating is not None:
-        ties(spec, description.operating.shaft)
+    check_kinematics(description)
 
 
 def _suffix(name: str, data: object) -> str:

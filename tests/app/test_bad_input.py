@@ -117,6 +117,29 @@ def test_text_that_is_not_utf8_is_refused(client: httpx.Client) -> None:
     problem(client.post("/v1/simulations", content=b'{"preset": "\xff"}', headers=headers), 400)
 
 
+HALF = "a\ud800"
+
+
+@pytest.mark.parametrize(
+    ("path", "body", "field"),
+    [
+        ("/v1/simulations", {"preset": HALF}, "preset"),
+        ("/v1/simulations", {"preset": "oscillator", "set": {HALF: 1}}, "set"),
+        ("/v1/simulations", {"preset": "oscillator", "channels": ["mass.y.displacement", HALF]}, "channels.1"),
+        ("/v1/reconciliations", {"machine": {"name": HALF}, "recordings": ["0" * 32]}, "machine.name"),
+        ("/v1/reconciliations", {"recordings": [HALF]}, "recordings.0"),
+        ("/v1/reconciliations", {HALF: 1}, "request"),
+        ("/v1/datasets", {"recipe": {"name": HALF}}, "recipe.name"),
+    ],
+)
+def test_half_a_character_is_refused_where_it_stands(
+    client: httpx.Client, path: str, body: dict[str, Any], field: str
+) -> None:
+    reply = client.post(path, content=json.dumps(body), headers={"Content-Type": "application/json"})
+    (wrong,) = problem(reply, 400)["errors"]
+    assert wrong["field"] == field and "\\ud800" in wrong["message"] and wrong["given"] == "a\\ud800"
+
+
 @pytest.mark.parametrize("content_type", ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data", ""])
 def test_other_media_types_are_refused(client: httpx.Client, content_type: str) -> None:
     body = problem(client.post("/v1/simulations", content=b"{}", headers={"Content-Type": content_type}), 415)
@@ -174,6 +197,7 @@ def test_declared_length_is_refused_at_once(client: httpx.Client) -> None:
         ("GET", "/v1/jobs?limit=0", 422),
         ("GET", "/v1/jobs?limit=1000", 422),
         ("GET", "/v1/jobs?status=happy", 422),
+        ("GET", "/v1/jobs?kind=nonsense", 422),
         ("GET", "/v1/jobs?sort=colour", 422),
         ("GET", "/v1/jobs?cursor=!!!", 422),
         ("GET", "/v1/jobs?cursor=e30", 422),

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
-from app.problems import MOST_FIELDS, FieldError, told
+from app.problems import MOST_FIELDS, FieldError, Told, response, told
 from jobs.errors import (
     IllegalTransition,
     JobGone,
@@ -48,3 +50,10 @@ def test_a_reply_tells_no_more_fields_than_its_bound() -> None:
     found = told(many)
     assert len(found.fields) == MOST_FIELDS
     assert str(MOST_FIELDS + 7) in found.detail and str(MOST_FIELDS) in found.detail
+
+
+def test_no_text_keeps_an_error_from_being_told() -> None:
+    half = "a\ud800"
+    wrong = FieldError(field=half, message=half, given=half, allowed=half)
+    reply = json.loads(response(Told(slug="x", status=400, detail=half, fields=[wrong]), f"/{half}").body)
+    assert {reply["detail"], *(reply["errors"][0][key] for key in ("field", "message", "given"))} == {"a\\ud800"}

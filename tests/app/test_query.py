@@ -8,6 +8,9 @@ from typing import Any
 import httpx
 import pytest
 
+from jobs.kinds import TICKETLESS, Kind
+from jobs.run import _KINDS
+
 
 def problem(reply: httpx.Response) -> dict[str, Any]:
     assert reply.status_code == 422, reply.text
@@ -28,6 +31,14 @@ def test_unknown_query_parameters_are_named(client: httpx.Client, path: str, nam
     (error,) = problem(client.get(path))["errors"]
     assert (error["field"], error["location"], error["allowed"]) == (name, "query", allowed)
     assert "is not a query parameter" in error["message"]
+
+
+def test_a_kind_of_jobs_that_there_is_not_is_refused_with_those_there_are(client: httpx.Client) -> None:
+    (error,) = problem(client.get("/v1/jobs?kind=simulaton"))["errors"]
+    assert (error["field"], error["location"], error["given"]) == ("kind", "query", "simulaton")
+    assert all(f"'{kind}'" in error["allowed"] for kind in Kind) and {*_KINDS, *TICKETLESS} == {*Kind}
+    for kind in Kind:
+        assert client.get(f"/v1/jobs?kind={kind}").status_code == 200
 
 
 @pytest.mark.slow

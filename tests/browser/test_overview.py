@@ -67,3 +67,16 @@ def test_a_server_that_is_away_is_told_and_its_return_noticed(browser: Browser, 
     browser.find('#health-pill[data-status="ok"]')
     eventually(lambda: browser.count("#banner > *") == 0, what="the banner to go")
     assert all("ERR_INTERNET_DISCONNECTED" in line for line in browser.complaints())
+
+
+def test_what_the_sender_did_wrong_does_not_degrade_the_service(browser: Browser, service: Service) -> None:
+    browser.show(service.page())
+    script = (
+        "return import('/js/overview/health.js').then(async (m) => { const health = await (await fetch('/v1/health'))"
+        ".json(); const e = m.healthStrip({ ...health, failures_last_hour: arguments[0] }).element"
+        ".querySelector('[data-tile=throughput]'); return [e.dataset.status, e.textContent]; })"
+    )
+    status, told = browser.run(script, {"refused": 2, "not-reconcilable": 1})
+    assert status == "ok" and "no failures" in told and "3 for the sender to change: " in told and "refused 2" in told
+    status, told = browser.run(script, {"refused": 2, "timeout": 1})
+    assert status == "degraded" and "1 failed: timeout 1" in told and "2 for the sender to change: refused 2" in told

@@ -26,6 +26,13 @@ export async function deleteJob(job) {
   return done(call(`/v1/jobs/${job.id}`, { method: "DELETE" }), "Deleted.");
 }
 
+export async function deleteRecording(recording) {
+  const text = `${recording.file.name} and what was read from it are removed from the server. Reconciliations that are done keep their reports.`;
+  const choice = await ask("Delete this recording?", text, [["delete", "Delete"]]);
+  if (choice === null) return false;
+  return done(call(recording.links.self, { method: "DELETE" }), "Deleted.");
+}
+
 async function done(promise, text) {
   try {
     await promise;

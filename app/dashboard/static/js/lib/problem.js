@@ -51,6 +51,11 @@ function fieldItem(told, names, shownAs) {
       h("div", {}, h("dt", {}, "field"), h("dd", {}, error.field))));
 }
 
+/** What must change, field by field. */
+export function fieldList(errors, names = {}, shownAs = {}) {
+  return h("ul", { class: "problem-fields" }, errors.map((item) => fieldItem(item, names, shownAs)));
+}
+
 /** A problem as a message box. `names` may give fields the names they have on screen, `shownAs` the factor and unit. */
 export function problemBox(error, names = {}, shownAs = {}) {
   const problem = error instanceof ApiProblem ? error.document : { title: "Error", detail: String(error.message ?? error) };
@@ -61,7 +66,7 @@ export function problemBox(error, names = {}, shownAs = {}) {
   return h("div", { class: "message", role: "alert", tabindex: "-1", dataset: { tone: "bad", type: problem.type ?? "" } },
     h("p", { class: "message-title" }, away ?? heading),
     count ? null : h("p", {}, problem.detail),
-    count ? h("ul", { class: "problem-fields" }, problem.errors.map((item) => fieldItem(item, names, shownAs))) : null);
+    count ? fieldList(problem.errors, names, shownAs) : null);
 }
 
 /** A short notice in the corner that goes by itself. */

@@ -4,6 +4,8 @@ import { h, replace } from "/js/lib/dom.js";
 import { bytes, duration, number } from "/js/lib/format.js";
 
 const WORDS = { ok: "ok", degraded: "degraded", away: "away", unknown: "unknown" };
+/** Codes of what only the sender can put right: no sign of the service's health. */
+const SENDERS = new Set(["refused", "not-reconcilable", "not-makeable", "invalid-machine"]);
 
 export function healthStrip(first) {
   const element = h("section", { class: "health", "aria-label": "Health of the service" });
@@ -21,8 +23,9 @@ function unknown() {
 function tiles(health) {
   const { queue, throughput } = health;
   const busy = health.workers.filter((worker) => worker.state === "busy").length;
-  const failures = Object.entries(health.failures_last_hour);
-  const failed = failures.reduce((sum, [, count]) => sum + count, 0);
+  const ended = Object.entries(health.failures_last_hour);
+  const failures = ended.filter(([code]) => !SENDERS.has(code));
+  const refusals = ended.filter(([code]) => SENDERS.has(code));
   const stores = [health.catalogue.status, health.artefacts.status, health.disk.status];
   const store = stores.includes("away") ? "away" : stores.includes("degraded") ? "degraded" : "ok";
   return [
@@ -36,9 +39,15 @@ function tiles(health) {
       notes: [`${queue.running} running`, queue.oldest_waiting_s === null ? "nothing held up" : `oldest ${duration(queue.oldest_waiting_s)}`, queue.outbox ? `${queue.outbox} in the outbox` : ""] },
     { name: "Store", status: store, value: `${bytes(health.disk.free_bytes)} free`,
       notes: [`catalogue ${part(health.catalogue)}`, `results ${part(health.artefacts)}`] },
-    { name: "Throughput", status: failed ? "degraded" : "ok", value: `${throughput.finished_last_hour} in the last hour`,
-      notes: [throughput.mean_run_s === null ? "" : `mean run ${duration(throughput.mean_run_s)}`, failed ? `${failed} failed: ${failures.map(([code, count]) => `${code} ${count}`).join(", ")}` : "no failures"] },
+    { name: "Throughput", status: failures.length ? "degraded" : "ok", value: `${throughput.finished_last_hour} in the last hour`,
+      notes: [throughput.mean_run_s === null ? "" : `mean run ${duration(throughput.mean_run_s)}`, counted(failures, "failed") || "no failures", counted(refusals, "for the sender to change")] },
   ];
+}
+
+/** `3 failed: timeout 2, internal 1`; nothing of none. */
+function counted(entries, what) {
+  const sum = entries.reduce((before, [, count]) => before + count, 0);
+  return sum ? `${sum} ${what}: ${entries.map(([code, count]) => `${code} ${count}`).join(", ")}` : "";
 }
 
 function part(found) {

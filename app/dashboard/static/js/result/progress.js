@@ -1,7 +1,8 @@
 /** A job that is under way, and one that did not end well. */
 
-import { h, replace } from "/js/lib/dom.js";
+import { h } from "/js/lib/dom.js";
 import { duration, number } from "/js/lib/format.js";
+import { fieldList } from "/js/lib/problem.js";
 
 const STAGES = { waiting: "Waiting for a worker", starting: "Starting", simulating: "Simulating", analysing: "Analysing spectra and labels", storing: "Storing the result", done: "Done" };
 
@@ -26,24 +27,22 @@ export function progressPanel(job) {
   return { element, update };
 }
 
-export function failurePanel(job) {
+/** `names`: what fields are called on the page. */
+export function failurePanel(job, names = {}) {
   if (job.gone) return note("The result is no longer kept.", "Run it again to have it back: the same request gives the same result.", "warn");
   if (job.status === "dismissed") return note("This job was cancelled.", "No result was stored; what was simulated for it may be kept and used again.", "warn");
   const { failure } = job;
   if (!failure) return note("There is no result.", `The job is ${job.status}.`, "warn");
-  const box = note(failure.code === "diverged" ? "The simulation diverged" : "The job failed", failure.message, "bad");
+  const errors = failure.detail?.errors ?? [];
+  // The message of such a failure is its fields in a row.
+  const box = note(failure.code === "diverged" ? "The simulation diverged" : "The job failed", errors.length ? null : failure.message, "bad");
+  if (errors.length) box.append(fieldList(errors, names));
   if (failure.advice) box.append(h("p", {}, h("strong", {}, "What to do: "), failure.advice));
   const details = Object.entries(failure.detail ?? {}).filter(([, value]) => typeof value !== "object");
   if (details.length) box.append(h("dl", { class: "facts" }, details.map(([name, value]) => [h("dt", {}, name), h("dd", {}, typeof value === "number" ? number(value, 6) : String(value))])));
-  const errors = failure.detail?.errors;
-  if (Array.isArray(errors)) {
-    const list = h("ul", { class: "problem-fields" });
-    replace(list, errors.map((e) => h("li", {}, h("strong", {}, e.field), ` ${e.message}`, h("span", { class: "muted" }, ` given ${JSON.stringify(e.given)}, allowed ${e.allowed ?? ""} ${e.unit ?? ""}`))));
-    box.append(list);
-  }
   return box;
 }
 
 function note(title, text, tone) {
-  return h("div", { class: "message", role: "alert", dataset: { tone } }, h("p", { class: "message-title" }, title), h("p", {}, text));
+  return h("div", { class: "message", role: "alert", dataset: { tone } }, h("p", { class: "message-title" }, title), text ? h("p", {}, text) : null);
 }
