@@ -148,7 +148,9 @@ def test_a_costly_member_is_given_up_alone_as_by_the_single_solver():
     assert isinstance(costly, TooStiff) and isinstance(cheap, Response)
     with pytest.raises(TooStiff) as caught:
         simulate(held, settings=settings, **asked)
-    assert caught.value.time_s == costly.time_s
+    # a piece of the run apart at most: what a ring that sticks takes hangs on the last bit, so on the processor
+    assert caught.value.time_s == pytest.approx(costly.time_s, abs=0.0042)
+    assert costly.time_s < 0.01
     assert simulate(free, settings=settings, **asked).signals.shape == cheap.signals.shape
 
 
