@@ -32,8 +32,8 @@ ROWS = {
 }
 """The commit with which a row begins, and the sections it is of."""
 EARLIER = (
-    "jury", "clear", "vast", "young", "mixed", "resumed", "last", "closing", "wide", "teeth", "held", "begun", "hearing",
-    "entire",
+    "jury", "clear", "vast", "young", "mixed", "resumed", "last", "closing", "wide", "teeth", "held", "begun",
+    "hearing", "entire",
 )  # fmt: skip
 """Sections of the eleven plans that have one row."""
 COLUMNS = (("single", "place"), ("double", "both"), ("open", "unknown_flagged"), ("null", "alarm"))
