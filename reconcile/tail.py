@@ -16,7 +16,7 @@ def tail_chance(controls: FloatArray, value: float) -> float:
     """Chance that a control reaches `value`: the rank, beyond the controls an exponential tail through their top tenth.
 
     The tail's rate is that of maximum likelihood for the excesses, which Pickands' theorem makes a generalised Pareto
-    law; its shape is taken as 0 (the clipped scores have bounded tails, so this errs on the safe side).
+    law; its shape is taken as 0: scores with heavier tails get too small a chance (docs/reconcile-engine.md).
     """
     n = controls.size
     above = int(np.sum(controls >= value))

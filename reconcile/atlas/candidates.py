@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +19,7 @@ ABOVE = 6.0
 parameter does not say otherwise."""
 COUNTED = 2.0
 """Dimensionless parameters with a whole default from here on are orders: drawn whole."""
+NOWHERE: Mapping[str, float] = {}
 FREE = ("custom_force",)
 """Laws of the user's own have no prior: they enter as unknown physics."""
 
@@ -154,6 +155,15 @@ def _other(param: Param, rng: np.random.Generator) -> float:
     return float(np.clip(round(value) if counted else value, param.low, param.high))
 
 
+def searched(candidate: Candidate, registry: Registry = REGISTRY) -> tuple[str, ...]:
+    """Parameters beside the size that have a range to be searched, in the order of their declaration."""
+    term = registry.get(candidate.term)
+    if term is None:
+        raise ValueError(f"no term {candidate.term}")
+    size = size_parameter(term)
+    return tuple(p.name for p in term.params if p.sought is not None and p is not size)
+
+
 def draw_term(
     candidate: Candidate,
     share: float,
@@ -161,11 +171,11 @@ def draw_term(
     machine: MachineSpec,
     registry: Registry = REGISTRY,
     *,
-    sought: float = 0.5,
+    sought: Mapping[str, float] = NOWHERE,
 ) -> TermSpec:
-    """The candidate at `share` 0..1 of its range (logarithmic), other parameters with a range to be searched at the
-    share `sought` of that, whatever the machine gives; the rest drawn, but for what the machine gives. What the machine
-    has already grows, up to `ABOVE` times at least, all else of it as it is."""
+    """The candidate at `share` 0..1 of its range (logarithmic), other parameters with a range to be searched at their
+    share `sought` of that, by name, else in its middle, whatever the machine gives; the rest drawn, but for what the
+    machine gives. What the machine has already grows, up to `ABOVE` times at least, all else of it as it is."""
     term = registry.get(candidate.term)
     if term is None:
         raise ValueError(f"no term {candidate.term}")
@@ -177,6 +187,6 @@ def draw_term(
     given = term.machine_values(machine, candidate.site)
     rest = [p for p in term.params if p is not size]
     values = {p.name: _other(p, rng) for p in rest if p.sought is None and p.name not in given}
-    values |= {p.name: _at(p, sought) for p in rest if p.sought is not None}
+    values |= {p.name: _at(p, sought.get(p.name, 0.5)) for p in rest if p.sought is not None}
     values[size.name] = _at(size, share)
     return TermSpec(term=candidate.term, site=candidate.site, parameters=values)

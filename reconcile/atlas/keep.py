@@ -15,7 +15,7 @@ from reconcile.observe.watch import bases_at, watch_list
 from sim.core.errors import Problem, SpecError
 from sim.version import PHYSICS_VERSION
 
-ATLAS_VERSION = 7
+ATLAS_VERSION = 8
 
 
 class Keeper(Protocol):

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reconcile.atlas.candidates import Candidate, already, draw_term, with_effects
+from reconcile.atlas.candidates import Candidate, already, draw_term, searched, with_effects
 from reconcile.calibrate.uncertain import DRIFT, Offsets, Uncertain, draw_offsets, moved
+from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
 from sim.core.spec import MachineSpec, TermSpec, TorqueLoad
 from sim.solve.ensemble import Member
@@ -136,11 +137,22 @@ def atlas_plan(
     for candidate in chosen:
         own = np.random.default_rng([seed, 2, *candidate.label.encode()])
         shares = (own.permutation(draws) + own.uniform(0.1, 0.9, draws)) / draws
-        others = (np.random.default_rng([seed, 5, *candidate.label.encode()]).permutation(draws) + 0.5) / draws
+        others = spread_over(candidate, draws, seed)
         for j in range(draws):
-            term = draw_term(candidate, float(shares[j]), own, machine, sought=float(others[j]))
+            sought = {name: float(places[j]) for name, places in others.items()}
+            term = draw_term(candidate, float(shares[j]), own, machine, sought=sought)
             planned.append(Draw(pair=j % pairs, candidate=candidate, term=term))
     return AtlasPlan(machine=machine, numbers=numbers, offsets=offsets, twins=twins, draws=tuple(planned), seed=seed)
+
+
+def spread_over(candidate: Candidate, draws: int, seed: int) -> dict[str, FloatArray]:
+    """Of each parameter beside the size that is searched the places of the draws in its range, (draws,), 0..1: evenly,
+    each in an order of its own."""
+    found = {}
+    for number, name in enumerate(searched(candidate)):
+        rng = np.random.default_rng([seed, 5, *((number,) if number else ()), *candidate.label.encode()])
+        found[name] = (rng.permutation(draws) + 0.5) / draws
+    return found
 
 
 def side_by_side(plan: AtlasPlan) -> AtlasPlan:

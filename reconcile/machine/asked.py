@@ -20,9 +20,9 @@ BESIDE_PIT = 12.0
 PROMISING = 2.5
 """Log likelihood that a second effect must add by sums to be simulated: a clearance beside an unbalance added 3.6 so
 and 64 simulated."""
-PROMISING_BESIDE_PLAY = 8.0
-"""The same beside a play, where each costs most: right seconds of the proof added 27, 35 and 37 so, and simulated 3.3
-times as much at most; what added less than 8 came to 13."""
+PROMISING_BESIDE_PLAY = 20.0
+"""The same beside a play, where each costs most and its own draws scatter most: right seconds of the proof added 27, 35
+and 37 so; what added less than 8 came to 13, a gear's run-out beside a loose fit alone, 16 by sums, to 85 (bk069)."""
 LEAD = 6.0
 """Log likelihood by which it must lead the other simulated ones,"""
 LEAD_BESIDE_PLAY = 12.0

@@ -131,14 +131,19 @@ def _left_by(changes: Changes, members: FloatArray) -> Leftover:
 def likelihoods(setting: Setting, found: Found) -> dict[str, float]:
     """Log likelihood over no change of every effect that was fitted together with the machine and does not strike: the
     mean of its best draws, all against the same variance."""
-    changes, library = setting.changes, found.known.library
-    nothing = _left_by(changes, np.zeros((1, changes.observed.size)))
+    library = found.known.library
     told = {}
     for name in found.led:
-        values = np.sort(nothing.likelihood(library.changes[list(library.groups[name])]))
+        values = np.sort(over_nothing(setting.changes, library.changes[list(library.groups[name])]))
         if not strikes(name):
-            told[name] = float(values[-BEST:].mean()) - nothing.base
+            told[name] = float(values[-BEST:].mean())
     return told
+
+
+def over_nothing(changes: Changes, drawn: FloatArray) -> FloatArray:
+    """(n, F) -> (n,): log likelihood over no change of what is `drawn`, all against the same variance."""
+    nothing = _left_by(changes, np.zeros((1, changes.observed.size)))
+    return nothing.likelihood(drawn) - nothing.base
 
 
 def ranked_seconds(

@@ -21,6 +21,8 @@ NEAR_SIZE = 0.35
 """Standard deviation of the logarithm of the size around the best draws."""
 NEAR_ANGLE_RAD = 0.5
 NEAR = 0.25
+NEAR_UNSTATED = 0.7
+"""Of a parameter that is searched beside the size: nobody measured it, and draws leave decades between them."""
 SMALLER, LARGER = 4.0, 8.0
 """Times by which sizes are spread about those of the best draws."""
 
@@ -33,7 +35,7 @@ def _moved(param: Param, value: float, rng: np.random.Generator) -> float:
     elif param.unit == "1" and float(value).is_integer() and value >= 2.0:
         moved = value
     else:
-        moved = value * float(np.exp(rng.normal(0.0, NEAR)))
+        moved = value * float(np.exp(rng.normal(0.0, NEAR if param.sought is None else NEAR_UNSTATED)))
     return float(np.clip(moved, param.low, param.high))
 
 

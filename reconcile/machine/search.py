@@ -20,6 +20,7 @@ from reconcile.machine.decide import DETECT_P
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import COSTLY, LANES, first_heat, more_draws, ordered_draws, second_heat, simulated_banks
 from reconcile.machine.of_teeth import looks_like
+from reconcile.machine.rattle import draws_around
 from reconcile.machine.refine import best_draws, refined_plan, seen_draws, spread_plan
 from reconcile.machine.second import beside, looks_for_second, strikes, struck_too
 from reconcile.machine.setting import Found, Setting
@@ -291,7 +292,7 @@ def refined(
     if turn == 0:
         found = spread_out(setting, found, leaders(found, budget, near), mapper)
     leading = leaders(found, budget, near)
-    around = [(name, best_draws(found.view(name), found.known, name, setting.changes.observed)) for name in leading]
+    around = [(name, draws_around(setting, found, name)) for name in leading]
     others = beside(setting, found, leading[0]) if looks_for_second(found) else None
     if others is not None:
         names = [n for n in others.names[:SECONDS] if n not in leading]

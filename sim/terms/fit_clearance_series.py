@@ -30,6 +30,9 @@ from sim.parts.wall_kernel import KERNEL
 
 LEAST_GAP_M = 1e-8
 """Below this gap the contact gets no stiffer: its mode would only cost steps."""
+SOUGHT_HOUSING_KG = (0.01, 0.03)
+"""Moving mass of a housing, which no drawing gives: from one that hardly adds to the ring's up to a third of that of a
+small ring; a lighter one on the contact's stiffness sets the step and shows nothing else."""
 CONFORMAL_GAP_M = 1e-6
 """Gap at which the contact has half the stiffness-length of a closed fit: as the gap closes the contact spreads over
 the bore and its compliance vanishes (conforming contact, Persson 1964, On the Stress Distribution of Cylindrical
@@ -106,6 +109,7 @@ TERM = FitClearanceSeries(
             high=100.0,
             sentence="Mass of the housing that moves with the support.",
             scale="log",
+            sought=SOUGHT_HOUSING_KG,
         ),
     ),
     references=("seed eq (34), read as a series connection", "Persson 1964 (conforming contact)"),

@@ -10,7 +10,7 @@ from reconcile.atlas.plan import Point, atlas_plan, side_by_side, with_tooth_pai
 from reconcile.calibrate.uncertain import uncertain_numbers
 from sim.assembly.assemble import BUILT_IN, assemble
 from sim.core.spec import MachineSpec, TermSpec
-from sim.parts.wall import SOUGHT_DAMPING
+from sim.parts.wall import SOUGHT_DAMPING, SOUGHT_FRICTION_SPEED
 from sim.presets import preset
 from sim.terms import REGISTRY
 
@@ -142,18 +142,32 @@ def test_larger_shares_are_larger_sizes() -> None:
     assert sizes[0] < sizes[1] < sizes[2]
 
 
-def test_collision_damping_is_searched_though_the_machine_states_one() -> None:
+@pytest.mark.parametrize(
+    ("name", "bounds"), [("damping", SOUGHT_DAMPING), ("friction_speed", SOUGHT_FRICTION_SPEED)], ids=str
+)
+def test_what_no_drawing_says_of_a_bore_is_searched_though_the_machine_states_it(
+    name: str, bounds: tuple[float, float]
+) -> None:
     assert MACHINE.bearings[0].bore_damping_ns_per_m is not None
     fit = Candidate(term="fit_clearance", site="bearing1")
     low, high = (
-        draw_term(fit, 0.5, np.random.default_rng(0), MACHINE, sought=share).parameters["damping"]
+        draw_term(fit, 0.5, np.random.default_rng(0), MACHINE, sought={name: share}).parameters[name]
         for share in (0.0, 1.0)
     )
-    assert (low, high) == pytest.approx(SOUGHT_DAMPING)
+    assert (low, high) == pytest.approx(bounds)
     plan = atlas_plan(MACHINE, uncertain_numbers(MACHINE), [fit], seed=0)
-    drawn = [d.term.parameters["damping"] for d in plan.draws if d.term is not None]
+    drawn = [d.term.parameters[name] for d in plan.draws if d.term is not None]
     places = np.sort(np.log(np.array(drawn) / low) / np.log(high / low))
     assert places == pytest.approx((np.arange(len(drawn)) + 0.5) / len(drawn))
+
+
+def test_what_is_searched_beside_the_size_goes_in_orders_of_its_own() -> None:
+    fit = Candidate(term="fit_clearance_series", site="bearing1")
+    plan = atlas_plan(MACHINE, uncertain_numbers(MACHINE), [fit], seed=0)
+    names = ("gap", "damping", "friction_speed")
+    orders = [tuple(np.argsort([d.term.parameters[n] for d in plan.draws if d.term is not None])) for n in names]
+    assert len(set(orders)) == len(names)
+    assert all(order != other[::-1] for order in orders for other in orders)
 
 
 def test_unknown_terms_and_terms_without_size_are_refused() -> None:
