@@ -9,9 +9,11 @@ import numpy as np
 
 from reconcile.kinematics.comb_scores import scores
 from reconcile.kinematics.contrast import contrast
+from reconcile.kinematics.envelopes import Envelopes
 from reconcile.kinematics.evidence import Evidence, family_evidence, logs
 from reconcile.kinematics.families import Family, Ties
 from reconcile.kinematics.observe import Observation
+from signals.series import FloatArray
 
 LOWEST = 0.3
 LEAST_Z = 12.0
@@ -21,6 +23,8 @@ LEAST_DEPTH = 0.3
 MULTIPLES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 SLOW = 1.0
 """Order below which a short record resolves a comb by less than a part's own slip."""
+LEAST_SPREAD = 0.7
+"""Deviation of a band's scores that is taken at least."""
 MOST = 12
 """Strongest orders that are looked at before giving up."""
 
@@ -50,16 +54,10 @@ def foreign_comb(
     """
     if not baselines:
         return None
-    highest = max(f.order for f in ties.families)
     best: tuple[float, float] | None = None
     for e in test.channels:
-        values = logs(e, ties, shaft_lines=False)
-        probe = Family(kind="outer", site="", order=1.0, spacing=0.0, sidebands=0, slip=0.0)
-        base = np.arange(LOWEST, 1.3 * highest, e.order_step / probe.harmonics)
-        table = scores(values, e, probe, base)
-        centre = np.median(table, axis=1, keepdims=True)
-        spread = np.maximum(1.4826 * np.median(np.abs(table - centre), axis=1, keepdims=True), 0.7)
-        top = np.max((table - centre) / spread, axis=0)
+        base, firm = firmness(e, ties)
+        top = np.max(firm, axis=0)
         for place in np.argsort(-top)[: 40 * MOST]:
             if explained(float(base[place]), ties, test.doubt, heard=heard, step=e.order_step):
                 continue
@@ -76,6 +74,19 @@ def foreign_comb(
     if growth.growth_db < least_db or growth.depth < LEAST_DEPTH:
         return None
     return Foreign(order=found.order, evidence=found, growth_db=growth.growth_db)
+
+
+def firmness(e: Envelopes, ties: Ties) -> tuple[FloatArray, FloatArray]:
+    """Orders (k,) up to 1.3 times the highest of a part, and how far the comb at each stands out of all of its band's,
+    (bands, k), deviations."""
+    highest = max(f.order for f in ties.families)
+    values = logs(e, ties, shaft_lines=False)
+    probe = Family(kind="outer", site="", order=1.0, spacing=0.0, sidebands=0, slip=0.0)
+    base = np.arange(LOWEST, 1.3 * highest, e.order_step / probe.harmonics)
+    table = scores(values, e, probe, base)
+    centre = np.median(table, axis=1, keepdims=True)
+    spread = np.maximum(1.4826 * np.median(np.abs(table - centre), axis=1, keepdims=True), LEAST_SPREAD)
+    return base, np.asarray((table - centre) / spread)
 
 
 def explained(

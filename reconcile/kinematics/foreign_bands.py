@@ -11,16 +11,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from reconcile.kinematics.comb_scores import scores
 from reconcile.kinematics.contrast import contrast
 from reconcile.kinematics.envelopes import Envelopes
-from reconcile.kinematics.evidence import family_evidence, logs
+from reconcile.kinematics.evidence import family_evidence
 from reconcile.kinematics.families import Family, Ties
-from reconcile.kinematics.foreign import GROWTH_DB, LEAST_DEPTH, LEAST_Z, LOWEST, MOST, Foreign, explained
+from reconcile.kinematics.foreign import GROWTH_DB, LEAST_DEPTH, LEAST_Z, MOST, Foreign, explained, firmness
 from reconcile.kinematics.observe import Observation
-
-LEAST_SPREAD = 0.7
-"""Of a band's scores, as in `reconcile.kinematics.foreign`."""
 
 
 def foreign_in_a_band(
@@ -47,13 +43,7 @@ def foreign_in_a_band(
 
 def _firm(e: Envelopes, test: Observation, ties: Ties, heard: Collection[str]) -> list[tuple[int, float]]:
     """(band, order) of the strongest comb of no part in each band that holds a firm one."""
-    values = logs(e, ties, shaft_lines=False)
-    probe = Family(kind="outer", site="", order=1.0, spacing=0.0, sidebands=0, slip=0.0)
-    base = np.arange(LOWEST, 1.3 * max(f.order for f in ties.families), e.order_step / probe.harmonics)
-    table = scores(values, e, probe, base)
-    centre = np.median(table, axis=1, keepdims=True)
-    spread = np.maximum(1.4826 * np.median(np.abs(table - centre), axis=1, keepdims=True), LEAST_SPREAD)
-    firm = (table - centre) / spread
+    base, firm = firmness(e, ties)
     found = []
     for band, row in enumerate(firm):
         for place in np.argsort(-row)[: 40 * MOST]:

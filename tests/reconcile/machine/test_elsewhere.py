@@ -7,11 +7,12 @@ from dataclasses import replace
 
 import pytest
 
-from reconcile.machine.decide import NO_PATTERN, UNMATCHED, Decision
+from reconcile.machine.decide import LEFT_OVER, LITTLE_LEFT, NO_PATTERN, UNMATCHED, Decision
 from reconcile.machine.elsewhere import (
     BY_FORECAST,
     CLEARLY,
     CLEARLY_LATER,
+    HALF_OF_IT,
     LEAST_GAIN,
     MOST_OF_IT,
     by_forecast,
@@ -160,4 +161,44 @@ def test_a_forecast_of_nearly_all_of_it_stands_for_a_pattern_that_no_draw_came_n
     ],
 )  # fmt: skip
 def test_and_nothing_less_does(decision: Decision, held: HeldOut | None) -> None:
+    assert by_forecast(decision, held) is decision
+
+
+RING = ("fit_clearance_series@bearing1",)
+LITTLE = Decision(word="not_decidable", chosen=RING, p=4e-6, reasons=(LITTLE_LEFT,))
+FORETOLD = replace(
+    HELD, gain=0.33, gain_low=0.17, gain_high=0.45, retuned=0.13, black_box=0.2, ceiling=0.59, effects=RING,
+    placebos=(
+        Placebo(term="outer_waviness", site="bearing1", gain=0.21, draws=2),
+        Placebo(term="coulomb_friction", site="bearing1", gain=0.01, draws=16),
+    ),
+)  # fmt: skip
+
+
+def test_a_forecast_of_half_of_it_before_all_others_names_what_leaves_a_little() -> None:
+    found = by_forecast(LITTLE, FORETOLD)
+    assert (found.word, found.chosen, found.reasons) == ("explained", RING, (LEFT_OVER,))
+    bare = replace(FORETOLD, retuned=None)
+    assert by_forecast(LITTLE, bare).word == "explained"
+
+
+@pytest.mark.parametrize(
+    ("decision", "held"),
+    [
+        (replace(LITTLE, reasons=("8 effects look alike",)), FORETOLD),
+        (replace(LITTLE, chosen=(*RING, "radial_clearance@bearing1")), FORETOLD),
+        (LITTLE, None),
+        (LITTLE, replace(FORETOLD, effects=("radial_clearance@bearing1",))),
+        (LITTLE, replace(FORETOLD, gain_low=LEAST_GAIN - 0.01)),
+        (LITTLE, replace(FORETOLD, gain_low=float("nan"))),
+        (LITTLE, replace(FORETOLD, ceiling=0.34 / HALF_OF_IT)),
+        (LITTLE, replace(FORETOLD, ceiling=None)),
+        (LITTLE, replace(FORETOLD, black_box=0.33 - 0.5 * CLEARLY)),
+        (LITTLE, replace(FORETOLD, black_box=None)),
+        (LITTLE, replace(FORETOLD, retuned=0.33 - 0.5 * CLEARLY)),
+        (LITTLE, replace(FORETOLD, placebos=(replace(FORETOLD.placebos[0], gain=0.33 - 0.5 * CLEARLY),))),
+        (LITTLE, replace(FORETOLD, placebos=())),
+    ],
+)  # fmt: skip
+def test_and_a_lesser_one_does_not(decision: Decision, held: HeldOut | None) -> None:
     assert by_forecast(decision, held) is decision

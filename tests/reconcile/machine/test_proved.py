@@ -7,9 +7,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from reconcile.judge.adequacy import Rest
 from reconcile.machine.decide import MECHANISM_OPEN, Decision
 from reconcile.machine.direct import HEARD
-from reconcile.machine.proved import BEYOND_DOUBT, FORM_UNMET, NO_BETTER, NO_FORECAST, NO_NEARER, UNLIKE, proved
+from reconcile.machine.proved import (
+    BEYOND_DOUBT,
+    FORM_UNMET,
+    MOST_KEPT,
+    NO_BETTER,
+    NO_FORECAST,
+    NO_NEARER,
+    UNLIKE,
+    proved,
+)
+from reconcile.machine.weigh import FAR_AHEAD
 from reconcile.machine.words import sentence
 from reconcile.verdict import Cause, Word
 
@@ -25,7 +36,7 @@ def decided(word: Word = "explained") -> Decision:
 
 def found(struck: float, evidence: float = 10.0, second: float = 0.0) -> SimpleNamespace:
     screen = SimpleNamespace(
-        names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, second]), bursts={}
+        names=NAMES, direct=np.array([struck, 0.0]), evidence=np.array([evidence, second]), bursts={}, rest=Rest()
     )
     return SimpleNamespace(screen=screen)
 
@@ -80,6 +91,32 @@ def test_so_is_one_that_may_foretell_nothing_and_less_than_a_correction_without_
     ):
         assert proved(decided(), CAUSES, found(0.0), nearer, enough) == (decided(), CAUSES)  # type: ignore[arg-type]
     assert proved(decided(), CAUSES, found(12.0), nearer, weak) == (decided(), CAUSES), "its impacts prove it"  # type: ignore[arg-type]
+
+
+LOOSE = ("fit_clearance_series@bearing1", "radial_clearance@bearing2")
+
+
+@pytest.mark.parametrize(
+    ("names", "lead", "rest", "word"),
+    [
+        (LOOSE, FAR_AHEAD, Rest(unmet=0.0, kept=MOST_KEPT), "explained"),
+        (LOOSE, FAR_AHEAD - 0.1, Rest(unmet=0.0, kept=MOST_KEPT), "not_decidable"),
+        (LOOSE, FAR_AHEAD, Rest(unmet=0.1, kept=MOST_KEPT), "not_decidable"),
+        (LOOSE, FAR_AHEAD, Rest(unmet=0.0, kept=MOST_KEPT - 0.01), "not_decidable"),
+        (LOOSE[::-1], FAR_AHEAD, Rest(unmet=0.0, kept=MOST_KEPT), "not_decidable"),
+    ],
+)
+def test_a_loose_ring_far_ahead_whose_lines_are_met_need_not_foretell_how_it_rattles(
+    names: tuple[str, str], lead: float, rest: Rest, word: Word
+) -> None:
+    screen = SimpleNamespace(names=names, direct=np.zeros(2), evidence=np.array([16.2, 16.2 - lead]), bursts={})
+    screen.rest = rest
+    decision = Decision(word="explained", chosen=names[:1], p=1.2e-5, reasons=())
+    nearer, found_so = revised(4.91, 4.5), SimpleNamespace(screen=screen)
+    told = proved(decision, CAUSES, found_so, nearer, held(-0.01, names[0]))  # type: ignore[arg-type]
+    assert told[0].word == word
+    far = proved(decision, CAUSES, found_so, revised(4.91, 5.0), held(-0.01, names[0]))  # type: ignore[arg-type]
+    assert far[0].word == "not_decidable", "the machine with it must come nearer"
 
 
 def test_so_is_a_set_whose_best_hardly_stands_out() -> None:

@@ -15,7 +15,10 @@ from reconcile.calibrate.uncertain import Offsets
 from reconcile.machine import refine, search
 from reconcile.machine.refine import (
     LARGER,
+    NEAR,
     NEAR_ANGLE_RAD,
+    NEAR_SIZE,
+    NEAR_UNSTATED,
     SMALLER,
     near_draws,
     refined_plan,
@@ -50,6 +53,17 @@ def test_leaders_come_first_and_further_draws_stand_about_them() -> None:
     for k, term in enumerate(drawn[2:]):
         ratio = term.parameters["width"] / leaders[k % 2].parameters["width"]
         assert ratio != 1.0 and 0.2 < ratio < 5.0
+
+
+def test_what_nobody_measured_goes_farther_than_what_is_known() -> None:
+    fit = {"gap": 1e-5, "damping": 2e4, "friction": 0.1, "length": 15.0, "friction_speed": 1e-2, "housing_mass": 0.02}
+    ring = TermSpec(term="fit_clearance_series", site="bearing1", parameters=fit)
+    drawn = near_draws([ring], 200, np.random.default_rng(2))[1:]
+    apart = {n: float(np.std([np.log(t.parameters[n] / fit[n]) for t in drawn])) for n in fit}
+    assert apart["friction"] == pytest.approx(NEAR, rel=0.2) and apart["length"] == pytest.approx(NEAR, rel=0.2)
+    for name in ("damping", "friction_speed", "housing_mass"):
+        assert apart[name] == pytest.approx(NEAR_UNSTATED, rel=0.2)
+    assert apart["gap"] == pytest.approx(NEAR_SIZE, rel=0.2)
 
 
 def test_sizes_are_spread_about_the_best_and_the_rest_stays_near(plan: AtlasPlan) -> None:
@@ -146,7 +160,7 @@ def test_leaders_are_spread_before_they_are_refined_once(
         monkeypatch.setattr(search, name, lambda *_: None)
     monkeypatch.setattr(search, "spread_out", spread_out)
     monkeypatch.setattr(search, "leaders", lambda *_: [PIT])
-    monkeypatch.setattr(search, "best_draws", lambda *_: [pit(5e-4)])
+    monkeypatch.setattr(search, "draws_around", lambda *_: [pit(5e-4)])
     monkeypatch.setattr(search, "refined_plan", lambda _, around, **__: [name for name, _ in around])
     monkeypatch.setattr(search, "simulated", lambda _, plan, *__: plan)
     monkeypatch.setattr(search, "fit_views", lambda _, known: known)
