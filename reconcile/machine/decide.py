@@ -212,7 +212,7 @@ def _by_patterns(screen: Screen, weights: dict[str, float], p: float, views: int
     if len(chosen) <= MOST_NAMED:
         few = (FEW_REASON,) if views <= FEW_VIEWS and len(credible_set(weights)) < len(chosen) else ()
         few = (*few, LEFT_OVER) if ample else few
-        return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(_why(chosen), *few))
+        return Decision(word="ambiguous", chosen=chosen, p=p, reasons=(what_is_open(chosen), *few))
     return Decision(word="not_decidable", chosen=chosen, p=p, reasons=(f"{len(chosen)} effects look alike",))
 
 
@@ -282,7 +282,7 @@ def _by_impacts(screen: Screen, weights: dict[str, float], p: float) -> Decision
     chosen = tuple(name for name, value in struck.items() if value > max(struck.values()) - LEAST_EVIDENCE)
     if len(chosen) == 1:
         return Decision(word="explained", chosen=chosen, p=p, reasons=())
-    reason = f"only impacts tell, the rest of the change is within the usual: {_why(chosen)}"
+    reason = f"only impacts tell, the rest of the change is within the usual: {what_is_open(chosen)}"
     word: Word = "ambiguous" if len(chosen) <= MOST_NAMED else "not_decidable"
     return Decision(word=word, chosen=chosen, p=p, reasons=(reason,))
 
@@ -311,7 +311,8 @@ def _not_excluded(screen: Screen, weights: dict[str, float], chosen: tuple[str, 
     return (*chosen, *near)
 
 
-def _why(chosen: Sequence[str]) -> str:
+def what_is_open(chosen: Sequence[str]) -> str:
+    """Of a set: the place, the mechanism, or both."""
     terms, sites = {c.split("@")[0] for c in chosen}, {c.split("@")[1] for c in chosen}
     if len(terms) == 1:
         return PLACE_OPEN

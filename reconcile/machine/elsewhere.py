@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from reconcile.machine.decide import LEFT_OVER, LITTLE_LEFT, UNMATCHED, Decision
+from reconcile.machine.decide import LEFT_OVER, LITTLE_LEFT, UNMATCHED, Decision, what_is_open
 from reconcile.machine.heldout import LATER, MANY
+from reconcile.machine.weigh import MOST_NAMED
 from reconcile.machine.words import next_experiment, title
 from reconcile.report.action import PLACE_OPEN
 from reconcile.report.words import percent
@@ -98,17 +99,21 @@ def _by_all_of_it(decision: Decision, held: HeldOut | None) -> Decision:
 
 
 def _by_half_of_it(decision: Decision, held: HeldOut | None) -> Decision:
-    """Not decidable for the little that the best effect leaves of single lines: named with that remark, where it alone
-    is in question and its forecast brings half of what a perfect model would, more than retuning, a black box and every
-    wrong law and place do."""
-    if decision.word != "not_decidable" or len(decision.chosen) != 1 or held is None or held.effects != decision.chosen:
+    """Not decidable for the little that the best effect leaves of single lines: named with that remark, or told as the
+    set that it is, where its forecast brings half of what a perfect model would, more than retuning, a black box and
+    every wrong law and place do."""
+    chosen = decision.chosen
+    if decision.word != "not_decidable" or held is None or held.effects != chosen[:1]:
         return decision
     if held.ceiling is None or held.black_box is None or not held.placebos:
         return decision
     rivals = CLEARLY + max(held.black_box, held.retuned or 0.0, *(p.gain for p in held.placebos))
     if not (held.gain_low >= LEAST_GAIN and held.gain >= max(HALF_OF_IT * held.ceiling, rivals)):
         return decision
-    return replace(decision, word="explained", reasons=(LEFT_OVER,))
+    if len(chosen) == 1:
+        return replace(decision, word="explained", reasons=(LEFT_OVER,))
+    few = len(chosen) < MOST_NAMED
+    return replace(decision, word="ambiguous", reasons=(what_is_open(chosen), LEFT_OVER)) if few else decision
 
 
 def with_place(report: Report, heard: Mapping[str, float], points: int, sensors: Sequence[str]) -> Report:

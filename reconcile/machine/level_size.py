@@ -21,7 +21,8 @@ from reconcile.judge.space import Fitted
 from reconcile.machine.library import Catalogued, catalogued, joined
 from reconcile.machine.local import simulated_banks
 from reconcile.machine.meter import Meter
-from reconcile.machine.refine import best_draws, known_term
+from reconcile.machine.rattle import draws_around
+from reconcile.machine.refine import known_term
 from reconcile.machine.rolling import kind_of
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.severity import estimated_severity, parameter_of, severity_of
@@ -81,7 +82,7 @@ def _asked(setting: Setting, found: Found, name: str) -> _Asked | None:
     levels = estimated_severity(view, found.known, name, observed)
     term, site = name.split("@")
     least, most = sought_range(setting.plan.machine, known_term(term), site)
-    near = tuple(best_draws(view, found.known, name, observed, count=NEAR))
+    near = tuple(draws_around(setting, found, name, NEAR))
     low, high = max(levels.low / WIDER, least), min(levels.high * WIDER, most)
     many = _worth(setting, near) if near and 0.0 < low < high else 0
     return _Asked(name=name, low=low, high=high, sought=(least, most), near=near, many=many) if many else None

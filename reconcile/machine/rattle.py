@@ -22,15 +22,16 @@ AS_NEAR = 4.0
 AROUND = 3
 
 
-def draws_around(setting: Setting, found: Found, name: str) -> list[TermSpec]:
-    """The draws of an effect about which it is simulated again: the nearest; of a loose ring the likeliest of these."""
+def draws_around(setting: Setting, found: Found, name: str, count: int = AROUND) -> list[TermSpec]:
+    """So many draws of an effect about which it is simulated again: the nearest; of a loose ring the likeliest of
+    those about as near, then the nearest."""
     observed = setting.changes.observed
     if name.split("@", maxsplit=1)[0] not in COSTLY:
-        return best_draws(found.view(name), found.known, name, observed)
+        return best_draws(found.view(name), found.known, name, observed, count)
     view, rows = found.view(name), list(found.known.library.groups[name])
     changes = found.known.library.changes[rows]
     away = squared_distances(view.metric(view.view(view.whiten(changes))), view.place(observed)[None])[:, 0]
     told = -away / (2.0 * view.overdispersion)
     likely = np.where(told >= told.max() - AS_NEAR, over_nothing(setting.changes, changes), -np.inf)
     order = np.lexsort((-told, -likely))
-    return [found.known.terms[rows[k]] for k in order[:AROUND]]
+    return [found.known.terms[rows[k]] for k in order[:count]]

@@ -19,6 +19,7 @@ from reconcile.machine.elsewhere import (
     with_place,
 )
 from reconcile.machine.heldout import LATER, MANY
+from reconcile.machine.weigh import MOST_NAMED
 from reconcile.report.action import PLACE_OPEN, to_do
 from reconcile.verdict import Cause, HeldOut, Placebo, PlaceWeight, Report, Where
 
@@ -182,11 +183,18 @@ def test_a_forecast_of_half_of_it_before_all_others_names_what_leaves_a_little()
     assert by_forecast(LITTLE, bare).word == "explained"
 
 
+def test_and_tells_the_set_that_it_is_where_more_effects_are_in_question() -> None:
+    both = (*RING, "inner_waviness@bearing2")
+    found = by_forecast(replace(LITTLE, chosen=both), FORETOLD)
+    assert (found.word, found.chosen) == ("ambiguous", both) and found.reasons[1:] == (LEFT_OVER,)
+    many = replace(LITTLE, chosen=(*RING, *(f"radial_clearance@bearing{k}" for k in range(MOST_NAMED - 1))))
+    assert by_forecast(many, FORETOLD) is many, "a set cut short"
+
+
 @pytest.mark.parametrize(
     ("decision", "held"),
     [
         (replace(LITTLE, reasons=("8 effects look alike",)), FORETOLD),
-        (replace(LITTLE, chosen=(*RING, "radial_clearance@bearing1")), FORETOLD),
         (LITTLE, None),
         (LITTLE, replace(FORETOLD, effects=("radial_clearance@bearing1",))),
         (LITTLE, replace(FORETOLD, gain_low=LEAST_GAIN - 0.01)),
