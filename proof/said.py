@@ -7,7 +7,8 @@ SECTIONS = {
     "core-seconds show. The little that a likely effect leaves of lines is a remark beside its name, an order of no "
     "part that rose goes before a name that leaves the level change as it is, and rings that nothing speaks for are "
     "not all simulated ([decision](decisions/reconcile-refused.md), [decision](decisions/reconcile-leftover.md)); "
-    "these cases had no part in it.",
+    "these cases had no part in it. Since then what no drawing says of a loose ring is searched wider, which bk001, "
+    "bk059 and bk069 have set ([decision](decisions/reconcile-rattle.md)).",
     "twelfth": "No version of the engine had met these before their run: the plan but for tw002 by one engine. Two ran "
     "at once, beside other work, which core-seconds show. What changed for sure and is like nothing known is told as "
     "unknown physics ([decision](decisions/reconcile-refused.md)); these cases had no part in it.",

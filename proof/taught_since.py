@@ -58,5 +58,12 @@ SINCE = (
         "what by its sum comes near the best that is simulated is too ([decision](decisions/reconcile-leftover.md))",
         "tw045, a pit and a loose ring, opened by a foot in a version that simulated fewer rings",
     ),
+    (
+        (
+            "what no drawing says of a loose ring is searched wider, and a ring far ahead that meets its lines need "
+            "not foretell how it rattles ([decision](decisions/reconcile-rattle.md))"
+        ),
+        "bk001 and bk069, loose rings, not decidable before, named since; bk059, a set with the ring first since",
+    ),
 )
 """A rule, and the cases that set it."""
