@@ -314,8 +314,6 @@ def _not_excluded(screen: Screen, weights: dict[str, float], chosen: tuple[str, 
 def what_is_open(chosen: Sequence[str]) -> str:
     """Of a set: the place, the mechanism, or both."""
     terms, sites = {c.split("@")[0] for c in chosen}, {c.split("@")[1] for c in chosen}
-    if len(terms) == 1:
-        return PLACE_OPEN
-    if len(sites) == 1:
-        return MECHANISM_OPEN
+    if min(len(terms), len(sites)) == 1:
+        return PLACE_OPEN if len(terms) == 1 else MECHANISM_OPEN
     return "several effects at several places look alike in these recordings"
