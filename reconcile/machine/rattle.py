@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from reconcile.judge.nulls import squared_distances
 from reconcile.machine.leftover import over_nothing
 from reconcile.machine.local import COSTLY
+from reconcile.machine.pairs import evidence_in
 from reconcile.machine.refine import best_draws
 from reconcile.machine.setting import Found, Setting
 from sim.core.spec import TermSpec
@@ -30,8 +30,7 @@ def draws_around(setting: Setting, found: Found, name: str, count: int = AROUND)
         return best_draws(found.view(name), found.known, name, observed, count)
     view, rows = found.view(name), list(found.known.library.groups[name])
     changes = found.known.library.changes[rows]
-    away = squared_distances(view.metric(view.view(view.whiten(changes))), view.place(observed)[None])[:, 0]
-    told = -away / (2.0 * view.overdispersion)
+    told = evidence_in(view, changes, observed)
     likely = np.where(told >= told.max() - AS_NEAR, over_nothing(setting.changes, changes), -np.inf)
     order = np.lexsort((-told, -likely))
     return [found.known.terms[rows[k]] for k in order[:count]]
