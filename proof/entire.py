@@ -98,6 +98,8 @@ TWELFTH = Design(split="twelfth", groups=WIDE.groups, turned=1423, rows=HELD.row
 """As xenial, of the rarer laws and most of the pairs that it leaves out."""
 BAKER = Design(split="baker", groups=WIDE.groups, turned=1531, rows=HELD.rows, begun=80, initials="bk")
 """As twelfth, of the rarer laws and most of the pairs that it leaves out."""
+CHANDLER = Design(split="chandler", groups=WIDE.groups, turned=1637, rows=HELD.rows, begun=88, initials="ch")
+"""As baker, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -168,6 +170,11 @@ def twelfth() -> tuple[Case, ...]:
 def baker() -> tuple[Case, ...]:
     """All cases of the thirteenth."""
     return cases_of_design(BAKER)
+
+
+def chandler() -> tuple[Case, ...]:
+    """All cases of the fourteenth."""
+    return cases_of_design(CHANDLER)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

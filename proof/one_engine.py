@@ -11,6 +11,7 @@ import numpy as np
 from proof.effects import LIPPED
 from proof.entire import (
     BAKER,
+    CHANDLER,
     ENTIRE,
     HELD,
     INQUEST,
@@ -41,7 +42,7 @@ FAR_OFF = 0.74
 """Error of a size, as a share of it."""
 CLEAR = 3.0
 """Times as far as drift, from which there is much to see."""
-DESIGNS = (BAKER, TWELFTH, XENIAL, ZENITH, INQUEST, JURY, SEVENTH, VAST, YOUNG, MIXED, WIDE, HELD, ENTIRE)
+DESIGNS = (CHANDLER, BAKER, TWELFTH, XENIAL, ZENITH, INQUEST, JURY, SEVENTH, VAST, YOUNG, MIXED, WIDE, HELD, ENTIRE)
 """The splits, the latest first."""
 
 
@@ -149,15 +150,16 @@ def _again(run: Run) -> list[str]:
 
 
 TITLES = {
-    "baker": "The latest plan",
-    "twelfth": "The plan before",
-    "xenial": "The one before that",
-    "zenith": "An older one",
-    "inquest": "One older than that",
-    "jury": "One before those",
-    "clear": "An older plan",
-    "vast": "One before that plan",
-    "young": "A yet older plan",
+    "chandler": "The latest plan",
+    "baker": "The plan before",
+    "twelfth": "The one before that",
+    "xenial": "An older one",
+    "zenith": "One older than that",
+    "inquest": "One before those",
+    "jury": "An older plan",
+    "clear": "One before that plan",
+    "vast": "A yet older plan",
+    "young": "Before that one",
     "mixed": "One more before",
     "wide": "A plan before",
     "held": "An engine before",
@@ -165,6 +167,7 @@ TITLES = {
 }
 NOT_YET = "The others are not run yet: the names' order is drawn, so those run are a sample of the plan. "
 LEFT = {
+    "chandler": NOT_YET,
     "baker": NOT_YET,
     "twelfth": "The one that is not run, tw002, is at a lower load, which needs an atlas of its own. ",
     "xenial": NOT_YET,

@@ -10,7 +10,22 @@ from typing import get_args
 
 import numpy as np
 
-from proof.entire import baker, clear, entire, held, inquest, jury, mixed, twelfth, vast, wide, xenial, young, zenith
+from proof.entire import (
+    baker,
+    chandler,
+    clear,
+    entire,
+    held,
+    inquest,
+    jury,
+    mixed,
+    twelfth,
+    vast,
+    wide,
+    xenial,
+    young,
+    zenith,
+)
 from proof.kinds import kinds
 from proof.nominals import NOMINALS, PAPER
 from proof.plan import SEEDS, SENSOR_COUNTS, SNRS_DB, TARGET, Case, Split, hiding_of, plan, sensors_of
@@ -43,7 +58,7 @@ def cases_of(split: Split) -> tuple[Case, ...]:
 MADE: Mapping[str, Callable[[], tuple[Case, ...]]] = {
     "others": others, "kinds": kinds, "entire": entire, "teeth": teeth, "held": held, "wide": wide, "mixed": mixed,
     "young": young, "vast": vast, "clear": clear, "jury": jury, "inquest": inquest, "zenith": zenith,
-    "xenial": xenial, "twelfth": twelfth, "baker": baker,
+    "xenial": xenial, "twelfth": twelfth, "baker": baker, "chandler": chandler,
 }  # fmt: skip
 
 

@@ -50,6 +50,7 @@ Split = Literal[
     "xenial",
     "twelfth",
     "baker",
+    "chandler",
 ]
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -82,6 +83,7 @@ SEEDS = {
     "xenial": 5_247_930_816,
     "twelfth": 4_693_170_258,
     "baker": 8_310_659_427,
+    "chandler": 7_600_884_850,
 }
 COUNTS = {
     "dev": {

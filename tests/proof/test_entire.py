@@ -23,6 +23,7 @@ from proof.entire import (
     Design,
     baker,
     cases_of_design,
+    chandler,
     clear,
     entire,
     held,
@@ -85,6 +86,7 @@ def test_the_seals_were_committed():
     assert seal.seals_of("xenial") == seal.manifest("xenial", xenial())["sha256"]
     assert seal.seals_of("twelfth") == seal.manifest("twelfth", twelfth())["sha256"]
     assert seal.seals_of("baker") == seal.manifest("baker", baker())["sha256"]
+    assert seal.seals_of("chandler") == seal.manifest("chandler", chandler())["sha256"]
 
 
 def test_the_second_has_no_case_of_the_first_and_is_a_sample_at_any_length():
