@@ -28,7 +28,7 @@ from reconcile.machine.pit_size import pit_sizes
 from reconcile.machine.placed import places, with_open, with_second
 from reconcile.machine.proved import proved
 from reconcile.machine.revised import Revised, paths, revised_machine
-from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_somewhere
+from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_said
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
 from reconcile.machine.unknown import Unknown, at_supports
@@ -106,7 +106,7 @@ def answer(
     pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
     decision, unknown = _forecast(decision, held, unknown)
-    struck = [n for n in struck_somewhere(setting, found, decision) if n in found.screen.names][:MOST_STRUCK]
+    struck = [n for n in struck_said(setting, found, decision)[1] if n in found.screen.names][:MOST_STRUCK]
     sizes = _sizes(setting, found, decision, pairs, other, meter) if missing else ()
     ranked = ranked_causes(found, decision, weights, setting.changes.observed, other, struck, *sizes) if missing else ()
     causes = with_forms(ranked, found.screen)
@@ -200,9 +200,9 @@ def _unsettled(
     pair = pairs.best if pairs is not None else None
     if other is None and pair is not None and pair.others:
         return "a second effect stands beside it", pair.others
-    struck = struck_somewhere(setting, found, decision)
+    shows, struck = struck_said(setting, found, decision)
     told = other is not None and other.names[0] in struck
-    return "impacts come from another part too", () if told else struck
+    return ("", ()) if told else (shows, struck)
 
 
 def _undecidable(decision: Decision, shows: str, others: tuple[str, ...]) -> tuple[str, ...]:

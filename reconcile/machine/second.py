@@ -33,10 +33,13 @@ LEAST_KEPT = 0.5
 and not all effects are simulated."""
 PLAY = ("fit_clearance", "fit_clearance_series", "pedestal_looseness", "radial_clearance")
 """Terms with a play, which balls that pass open and close: its own bearing's lines are those of a pit only by more."""
-STRUCK_BESIDE_PLAY = 16.0
+STRUCK_BESIDE_PLAY = 23.0
 """Log evidence of impacts from which they are: a ring loose in its seat brought 11.2 at the outer races' lines (h001 of
-the proof), 14.8 without teeth; a race pitted beside one more than the 25 that count (b019, 17 deviations: the one right
-case). Below, the place is told and no name. Pits of another shaft, of which this is not asked, had 8 to 18."""
+the proof), 14.8 without teeth, 19.1 to 21.1 where its gap was 43 um (bk030); a race pitted beside one more than the 25
+that count (b019, 17 deviations: the one right case). Below, the place is told and no name. Pits of another shaft, of
+which this is not asked, had 8 to 18."""
+OF_ANOTHER = "impacts come from another part too"
+OF_ITS_PLAY = "impacts come too, which its own play may bring, at lines that these share"
 LEFT = 0.9
 """Quantile of the misfit above which something besides the best effect is looked for."""
 
@@ -211,6 +214,15 @@ def struck_somewhere(setting: Setting, found: Found, decision: Decision) -> tupl
     if outweighs(struck):
         return tuple(further[0]) if further else ()
     return tuple(n for n, e in zip(struck.names, struck.evidence, strict=True) if e > struck.evidence[0] - STRUCK)
+
+
+def struck_said(setting: Setting, found: Found, decision: Decision) -> tuple[str, tuple[str, ...]]:
+    """How a second part that strikes shows, in words, and the effects among which it lies; empty where none does."""
+    places = struck_somewhere(setting, found, decision)
+    if not places:
+        return "", ()
+    firmest = struck_parts(setting, found, decision.chosen[0])[0]
+    return OF_ITS_PLAY if by_play(setting, decision.chosen[0], firmest) else OF_ANOTHER, places
 
 
 def outweighs(seen: Beside) -> bool:

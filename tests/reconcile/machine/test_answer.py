@@ -12,7 +12,7 @@ from reconcile.machine.answer import _doubtful, _machine, _told, _undecidable, _
 from reconcile.machine.decide import Decision
 from reconcile.machine.pairs import Pairs
 from reconcile.machine.placed import with_open
-from reconcile.machine.second import Beside
+from reconcile.machine.second import OF_ANOTHER, Beside
 from reconcile.machine.stages import of_pairs
 from reconcile.verdict import Cause, HeldOut, SensorFault, Word
 from sim.presets import preset
@@ -89,7 +89,7 @@ PLACES = ("outer_spall@bearing3", "outer_spall@bearing4")
 
 
 def test_what_stands_beside_a_name_is_told_unless_it_has_a_name_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reconcile.machine.answer.struck_somewhere", lambda *_: PLACES)
+    monkeypatch.setattr("reconcile.machine.answer.struck_said", lambda *_: (OF_ANOTHER, PLACES))
     named = Decision(word="explained", chosen=("unbalance@pinion",), p=1e-6, reasons=())
 
     def beside(decision: Decision = named, other: str | None = None, pair: tuple[str, ...] = ()) -> tuple[str, ...]:
@@ -101,6 +101,6 @@ def test_what_stands_beside_a_name_is_told_unless_it_has_a_name_too(monkeypatch:
     assert beside(other=PLACES[1]) == ()
     assert beside(pair=("unbalance@gear", "eccentricity@gear")) == ("unbalance@gear", "eccentricity@gear")
     assert beside(replace(named, word="ambiguous")) == ()
-    said = _undecidable(named, "impacts come from another part too", PLACES)
+    said = _undecidable(named, OF_ANOTHER, PLACES)
     assert said == (f"impacts come from another part too, one of these: {', '.join(PLACES)}",)
     assert _undecidable(replace(named, reasons=()), "", ()) == ()

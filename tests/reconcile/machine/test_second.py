@@ -18,6 +18,8 @@ from reconcile.machine.of_teeth import APART
 from reconcile.machine.search import LEAST_OF_LINES, to_fit
 from reconcile.machine.second import (
     LEFT,
+    OF_ANOTHER,
+    OF_ITS_PLAY,
     STRUCK_BESIDE_PLAY,
     Beside,
     beside,
@@ -25,6 +27,7 @@ from reconcile.machine.second import (
     outweighs,
     second_effect,
     struck_parts,
+    struck_said,
     struck_somewhere,
     struck_too,
 )
@@ -182,7 +185,7 @@ def test_what_strikes_for_sure_is_named_beside_a_first_effect_that_strikes_nowhe
     assert struck_too(setting, found, NAMES[0]) is None, "the first one's own impacts"  # type: ignore[arg-type]
     setting.direct = replace(NOTHING, evidence={NAMES[0]: STRUCK + 1.0, "outer_spall@bearing2": STRUCK + 1.0})
     assert second_effect(setting, found, decision) is None, "its own balls rattle"  # type: ignore[arg-type]
-    assert struck_somewhere(setting, found, decision) == (NAMES[0],)  # type: ignore[arg-type]
+    assert struck_said(setting, found, decision) == (OF_ITS_PLAY, (NAMES[0],))  # type: ignore[arg-type]
     sure, clear = found_in(seen((2,), 1), STRUCK_BESIDE_PLAY + 1.0)
     sure.direct = setting.direct
     assert second_effect(sure, clear, decision) is not None  # type: ignore[arg-type]
@@ -197,7 +200,8 @@ def test_impacts_at_several_parts_are_told_beside_a_first_effect_that_strikes_no
     parts = struck_parts(setting, found, NAMES[2])  # type: ignore[arg-type]
     assert [set(part) for part in parts] == [{NAMES[0]}, set(OTHER_PARTS)]
     decision = replace(decide(found.screen, views=9), word="explained", chosen=(NAMES[2],))
-    assert set(struck_somewhere(setting, found, decision)) == set(OTHER_PARTS)  # type: ignore[arg-type]
+    shows, places = struck_said(setting, found, decision)  # type: ignore[arg-type]
+    assert shows == OF_ANOTHER and set(places) == set(OTHER_PARTS)
 
 
 @pytest.mark.parametrize(
