@@ -19,6 +19,8 @@ from reconcile.force_law.samples import ForceSamples
 SHOWN = 600
 """Samples of the stretch shown."""
 FLOOR_DB = -300.0
+UNKNOWN_FORCE = "unit of the model"
+"""Of a force whose channel carries no unit of force: one of the channel's own is read as 1 N."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,11 +193,15 @@ def pictures(found: Analysis, shown: Shown, freed: Freed | None) -> dict[str, ob
         "spectra": [_spectra(found, found.held_before[run.skip :], found.held_after[run.skip :])],
         "ranking": _ranking(found),
     }
-    return drawn if freed is None else drawn | force_pictures(freed, run.data.answer_channel.unit, run.data.order)
+    if freed is None:
+        return drawn
+    known = run.data.calibrated
+    return drawn | force_pictures(freed, run.data.answer_channel.unit, run.data.order, calibrated=known)
 
 
-def force_pictures(freed: Freed, unit: str, order: int) -> dict[str, dict[str, object]]:
-    """The force over one argument, and over displacement and velocity."""
+def force_pictures(freed: Freed, unit: str, order: int, *, calibrated: bool = True) -> dict[str, dict[str, object]]:
+    """The force over one argument, and over displacement and velocity; in newtons only where it was `calibrated`."""
+    newtons = "N" if calibrated else UNKNOWN_FORCE
     displacement, velocity = motion_units(unit, order)
     labels = f"displacement, {displacement}", f"velocity, {velocity}"
     over = freed.over
@@ -203,7 +209,7 @@ def force_pictures(freed: Freed, unit: str, order: int) -> dict[str, dict[str, o
     return {
         "law": {
             "x_label": labels[freed.rate],
-            "y_label": "force beyond linear, N",
+            "y_label": f"force beyond linear, {newtons}",
             "x": over.argument,
             "force": over.force_n,
             "low": over.low_n,
@@ -213,7 +219,7 @@ def force_pictures(freed: Freed, unit: str, order: int) -> dict[str, dict[str, o
         "force_map": {
             "x_label": labels[0],
             "y_label": labels[1],
-            "value_label": "N",
+            "value_label": newtons,
             "x": plane.displacement_m,
             "y": plane.velocity_m_per_s,
             "value": plane.force_n,

@@ -6,8 +6,8 @@ told while each of them is below it (`reconcile.observe.whole_turn`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from reconcile.kinematics.families import Ties
 from reconcile.kinematics.gears import GearEvidence
 from reconcile.kinematics.lines import matched
 from reconcile.kinematics.observe import Observation
+from reconcile.kinematics.turn_picture import turn_picture
 from reconcile.kinematics.vague import TOOTH_TERMS, gear_report
 from reconcile.observe.tooth_place import Look, ToothPlace, placed, window_of
 from reconcile.observe.whole_turn import Turned, standing, whole_turns
@@ -44,6 +45,8 @@ class ToothTurn:
     shown: str = "the first sample"
     alike: tuple[str, ...] = ()
     """Other gears that turn as this one does."""
+    picture: Mapping[str, object] = field(default_factory=dict)
+    """Of its mean turn in that test and the baseline."""
 
 
 def tooth_turns(tests: Sequence[Observation], baselines: Sequence[Observation], ties: Ties) -> tuple[ToothTurn, ...]:
@@ -52,6 +55,7 @@ def tooth_turns(tests: Sequence[Observation], baselines: Sequence[Observation], 
     found = []
     for shaft, gear, teeth in _gears(ties) if pairs else ():
         points, grown, shown = [], [], []
+        pictures: list[dict[str, object]] = []
         for test, base in pairs:
             names = tuple(n for n in test.recording.names if n in base.recording.names)
             each = [_turned(one, names, ties.shafts[shaft]) for one in (test, base)]
@@ -63,18 +67,32 @@ def tooth_turns(tests: Sequence[Observation], baselines: Sequence[Observation], 
                 speed = test.speed.speed_hz
                 points.append(Look(standing=standing(now, before), turn=now, start_turns=start, speed_hz=speed))
                 grown.append(now.level / max(before.level, 1.0))
-                shown.append(
-                    f"{'the first pulse of the tacho' if _pulses(test) else 'the first sample'} of {test.label}"
-                )
+                counted = f"{'the first pulse of the tacho' if _pulses(test) else 'the first sample'} of {test.label}"
+                shown.append(counted)
+                pictures.append(
+                    turn_picture(
+                        *(now, before), gear=gear, shaft=shaft, start=counted, speed_hz=speed,
+                        starts=(start, _start(base, ties.shafts[shaft])), same_start=_pulses(test) and _pulses(base),
+                    )
+                )  # fmt: skip
         if points:
             middle = float(np.median(grown))
-            best = shown[int(np.argmax([look.standing for look in points]))]
+            best = int(np.argmax([look.standing for look in points]))
             place = placed(shaft, points)
             alike = tuple(
                 g for s, g, _ in _gears(ties) if g != gear and abs(ties.shafts[s] / ties.shafts[shaft] - 1.0) < ALIKE
             )
             found.append(
-                ToothTurn(gear=gear, shaft=shaft, place=place, grown=middle, tests=len(points), shown=best, alike=alike)
+                ToothTurn(
+                    gear=gear,
+                    shaft=shaft,
+                    place=place,
+                    grown=middle,
+                    tests=len(points),
+                    shown=shown[best],
+                    alike=alike,
+                    picture=pictures[best],
+                )
             )
     return tuple(sorted(found, key=lambda one: -one.place.standing))
 
@@ -163,6 +181,7 @@ def uneven_report(found: ToothTurn) -> Report:
         next_experiment=NextExperiment(
             sentence="Record at two further speeds: what is out of balance grows with speed, teeth hardly do."
         ),
+        pictures=found.picture,
     )
 
 
@@ -219,4 +238,5 @@ def tooth_report(found: ToothTurn) -> Report:
             f"whether it is a tooth of {found.gear}: a key, a rub or a loose part of {found.shaft} may do so too",
         ),
         next_experiment=NextExperiment(sentence="Add the gear data and loads to the machine to fit the tooth faults."),
+        pictures=found.picture,
     )

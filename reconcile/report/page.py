@@ -14,6 +14,7 @@ from reconcile.report.figures.force_lines import by_lines
 from reconcile.report.figures.gains import distances, gains
 from reconcile.report.figures.law import from_force, law, law_words, one_axis
 from reconcile.report.figures.maps import force_map, map_words
+from reconcile.report.figures.mean_turn import mean_turn, turn_words
 from reconcile.report.figures.path import path
 from reconcile.report.figures.sketch import sketch
 from reconcile.report.figures.spectrum import in_third_octaves
@@ -96,6 +97,16 @@ def _envelope(report: Report) -> Markup:
     told_of = tag("p", note, css="muted") if any(marked(p) for p in drawn) else Markup("")
     panels = [Markup(tag("p", caption(p), css="muted") + key + envelope(p)) for p in drawn]
     return section("Envelope over orders", *panels, told_of)
+
+
+def _mean_turn(report: Report) -> Markup:
+    drawn = [p for p in several(report.pictures, "mean_turn") if p.get("test_db")]
+    panels = []
+    for p in drawn:
+        names = [("observed", "test"), *([("before", "baseline")] if "baseline_db" in p else [])]
+        key = tag("div", *(tag("span", tag("i", css=f"k-{css}"), words) for css, words in names), css="key")
+        panels.append(Markup(tag("p", turn_words(p), css="muted") + key + mean_turn(p, report.where.angle_window)))
+    return section("Over the turn of a gear", *panels) if panels else Markup("")
 
 
 def _maps(report: Report) -> Markup:
@@ -203,6 +214,7 @@ def page(report: Report) -> str:
         _force(report),
         _spectra(report),
         _envelope(report),
+        _mean_turn(report),
         _maps(report),
         _changes(report),
         undecidable(report),

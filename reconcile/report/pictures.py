@@ -109,6 +109,23 @@ class Envelope(TypedDict, total=False):
     baseline: EnvelopeCurve
 
 
+class MeanTurn(TypedDict, total=False):
+    """`mean_turn`: power of what comes back with every turn of a gear, without the lines of its teeth, in windows of
+    `window_deg` over the middle of them, at each of `angle_deg` of its `shaft`; `start`: what angles count from, for
+    the baseline's only where it has the `same_start`."""
+
+    gear: str
+    shaft: str
+    speed_hz: float
+    turns: int
+    window_deg: float
+    start: str
+    same_start: bool
+    angle_deg: Sequence[float]
+    test_db: Sequence[float]
+    baseline_db: Sequence[float]
+
+
 class Trace(TypedDict):
     """`traces`: a stretch of held-out signal; `before` and `after` as predicted without and with the answer."""
 
@@ -150,6 +167,7 @@ class Pictures(TypedDict, total=False):
 
     spectra: list[Spectrum]
     envelope: list[Envelope] | Envelope
+    mean_turn: list[MeanTurn] | MeanTurn
     heat: list[Heat] | Heat
     changes: list[Change]
     ranking: list[Ranked]

@@ -127,7 +127,7 @@ def _map(
     return frame, Markup(cells + frame.axes(y_ticks=not labels.rows) + names + _legend(frame, limit, labels.value))
 
 
-def _window(frame: Frame, window: AngleWindow) -> Markup:
+def window_bar(frame: Frame, window: AngleWindow) -> Markup:
     """The located window as a bar along the upper edge, in two pieces where it goes over the pulse."""
     low, high = window.low_deg % 360.0, window.high_deg % 360.0
     pieces = [(low, high)] if low <= high else [(0.0, high), (low, 360.0)]
@@ -157,7 +157,7 @@ def heat(picture: Mapping[str, Plain], window: AngleWindow | None, most: int = M
     if drawn is None:
         return Markup("")
     frame, inside = drawn
-    bar = _window(frame, window) if window is not None and window.shaft == shaft else Markup("")
+    bar = window_bar(frame, window) if window is not None and window.shaft == shaft else Markup("")
     return frame.svg(inside, bar, title=labels.title)
 
 

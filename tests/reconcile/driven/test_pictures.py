@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reconcile.driven import reconcile_driven
-from reconcile.driven.pictures import Freed, force_pictures, motion_units
+from reconcile.driven.pictures import UNKNOWN_FORCE, Freed, force_pictures, motion_units
 from reconcile.force_law.picture import curve
 from reconcile.force_law.samples import ForceSamples, even_blocks
 from reconcile.report import page
@@ -47,6 +47,13 @@ def test_the_axes_of_an_acceleration_are_metres_and_metres_a_second() -> None:
     assert drawn["law"]["x_label"] == "displacement, m"
     assert (drawn["force_map"]["x_label"], drawn["force_map"]["y_label"]) == ("displacement, m", "velocity, m/s")
     assert force_pictures(freed(rate=True), "m/s^2", 2)["law"]["x_label"] == "velocity, m/s"
+    assert (drawn["law"]["y_label"], drawn["force_map"]["value_label"]) == ("force beyond linear, N", "N")
+
+
+def test_a_force_in_volts_is_none_in_newtons() -> None:
+    drawn = force_pictures(freed(rate=False), "V", 0, calibrated=False)
+    assert drawn["law"]["y_label"] == f"force beyond linear, {UNKNOWN_FORCE}"
+    assert drawn["force_map"]["value_label"] == UNKNOWN_FORCE
 
 
 @pytest.mark.slow

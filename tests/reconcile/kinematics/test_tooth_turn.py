@@ -58,6 +58,11 @@ def test_a_burst_below_the_floor_of_its_sidebands_is_told(gear: str, ratio: floa
     report = reconcile_kinematics(SPEC, [now.recording], [before.recording], seed=0)
     assert report.verdict == "ambiguous" and f"local tooth fault on {gear}" in report.sentence
     assert {c.term for c in report.causes} == {"tooth_crack", "tooth_spall", "missing_tooth"}
+    shown = report.pictures["mean_turn"]
+    assert isinstance(shown, dict) and shown["gear"] == gear and report.where.angle_window is not None
+    highest = shown["angle_deg"][int(np.argmax(shown["test_db"]))]
+    assert report.where.angle_window.low_deg <= highest <= report.where.angle_window.high_deg
+    assert max(shown["test_db"]) > max(shown["baseline_db"]) + 3.0
     window = report.where.angle_window
     assert window is not None and window.centre_deg == pytest.approx(120.0 + 6.0, abs=10.0)
 
