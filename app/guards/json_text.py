@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _ESCAPED = re.compile(rb"\\u[dD][89a-fA-F]")
@@ -96,10 +96,18 @@ def _int(text: str) -> int:
 def _pairs(pairs: list[tuple[str, object]]) -> dict[str, object]:
     document = dict(pairs)
     if len(document) != len(pairs):
-        names = [name for name, _ in pairs]
-        twice = next(name for name in names if names.count(name) > 1)
-        raise NotStrictJson(f"the key {twice[:80]!r} appears twice in one object")
+        raise NotStrictJson(f"the key {_twice(name for name, _ in pairs)[:80]!r} appears twice in one object")
     return document
+
+
+def _twice(names: Iterable[str]) -> str:
+    """The first name that was there before; one pass, as an object may have a million names."""
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            return name
+        seen.add(name)
+    raise ValueError("none of the names appears twice")
 
 
 def _depth(document: object) -> int:

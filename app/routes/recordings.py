@@ -65,7 +65,8 @@ async def send(
     """
     async with multipart(request, max_files=2, max_fields=4, max_part_size=DESCRIPTION_BYTES) as form:
         file = _file(form)
-        document = _document(await _text(form["description"]), state.settings.max_json_depth)
+        text = await _text(form["description"])
+        document = await run_in_threadpool(_document, text, state.settings.max_json_depth)
         name = named(principal, submitter) or f"anonymous-{uuid.uuid4().hex[:12]}"
         upload = Upload(name=file.filename or "", content=file.file)
         taken = await run_in_threadpool(accept_recording, state.desk(), document, upload, submitter=name)

@@ -40,3 +40,13 @@ def test_whole_characters_pass(text: str) -> None:
 
 def test_what_is_written_is_unicode_and_tells_what_stood_there() -> None:
     assert writable("a\ud800b😀") == "a\\ud800b😀"
+
+
+def test_a_key_that_is_there_twice_is_told_in_one_pass_over_any_number_of_them() -> None:
+    """A search for each name among all of them would take minutes here, on a server that has others to answer."""
+    many = ",".join(f'"k{k}":{k}' for k in range(200_000))
+    check(f"{{{many}}}".encode(), 8)
+    with pytest.raises(NotStrictJson, match="the key 'k199999' appears twice"):
+        check(f'{{{many},"k199999":0}}'.encode(), 8)
+    with pytest.raises(NotStrictJson, match="the key 'b' appears twice"):
+        check(b'{"a":1,"b":2,"c":{"a":1},"b":3,"a":4}', 8)
