@@ -69,10 +69,11 @@ def tooth_turns(tests: Sequence[Observation], baselines: Sequence[Observation], 
                 grown.append(now.level / max(before.level, 1.0))
                 counted = f"{'the first pulse of the tacho' if _pulses(test) else 'the first sample'} of {test.label}"
                 shown.append(counted)
+                same = all(_by_pulses(one, ties.shafts[shaft], ties) for one in (test, base))
                 pictures.append(
                     turn_picture(
                         *(now, before), gear=gear, shaft=shaft, start=counted, speed_hz=speed,
-                        starts=(start, _start(base, ties.shafts[shaft])), same_start=_pulses(test) and _pulses(base),
+                        starts=(start, _start(base, ties.shafts[shaft])), same_start=same,
                     )
                 )  # fmt: skip
         if points:
@@ -99,6 +100,15 @@ def tooth_turns(tests: Sequence[Observation], baselines: Sequence[Observation], 
 
 def _pulses(one: Observation) -> bool:
     return one.speed.method == "tacho"
+
+
+def _by_pulses(one: Observation, ratio: float, ties: Ties) -> bool:
+    """Whether a gear of the `ratio` stands at one angle at every pulse: only then two records count from the same."""
+    tacho = one.recording.tacho
+    if not _pulses(one) or tacho is None or tacho.shaft not in ties.shafts:
+        return False
+    a_pulse = ratio / ties.shafts[tacho.shaft] / tacho.pulses_per_revolution
+    return round(a_pulse) >= 1 and abs(a_pulse / round(a_pulse) - 1.0) < ALIKE
 
 
 def _start(one: Observation, ratio: float) -> float:

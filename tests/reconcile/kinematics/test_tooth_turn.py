@@ -194,3 +194,25 @@ def test_with_pulses_the_angle_counts_from_the_first_of_them() -> None:
         found.append(window.centre_deg)
     assert found[0] == pytest.approx(120.0 + 6.0, abs=10.0)
     assert found[1] == pytest.approx(found[0], abs=3.0)
+
+
+@pytest.mark.parametrize(("shaft", "pulses", "same"), [("shaft", 1, ["pinion"]), ("shaft", 2, []), ("", 1, [])])
+def test_angles_are_those_of_the_baseline_only_where_every_pulse_finds_the_gear_alike(
+    shaft: str, pulses: int, same: list[str]
+) -> None:
+    """Between two pulses of the pinion the wheel turns by 23 teeth of 81: a record begins at any of 81 angles."""
+    both = []
+    for seed, label in ((1, "test"), (2, "baseline")):
+        one = seen(seed, label).recording
+        angle = turned(seed, SPEED_HZ, 0.002, SECONDS) / (2 * np.pi)
+        at = np.arange(0.0, np.floor(angle[-1] * pulses)) / pulses
+        tacho = Tacho(
+            shaft=shaft, pulse_times_s=np.interp(at, angle, np.arange(angle.size)) / RATE_HZ,
+            pulses_per_revolution=pulses,
+        )  # fmt: skip
+        one = replace(one, tacho=tacho if shaft else None)
+        both.append(observe(one, TIE, label, stated_hz=None if shaft else SPEED_HZ, seed=0))
+    turns = tooth_turns(both[:1], both[1:], TIE)
+    pictures = {one.gear: one.picture["mean_turn"] for one in turns}
+    assert set(pictures) == {"pinion", "gear"}
+    assert [name for name, picture in pictures.items() if picture["same_start"]] == same

@@ -47,6 +47,16 @@ def test_the_baseline_is_beside_it_from_its_own_start() -> None:
     assert max(shown["baseline_db"]) == pytest.approx(10 * np.log10(2.0), abs=0.01)
 
 
+def test_what_is_said_of_it_is_the_turns_own() -> None:
+    shown = drawn(turn(0.25, 400))
+    assert (shown["turns"], shown["window_deg"], shown["same_start"]) == (30, pytest.approx(1.2 * 360 / 20), True)
+    assert shown["angle_deg"][0] == pytest.approx(0.45) and shown["angle_deg"][-1] == pytest.approx(359.55)
+    other = turn_picture(
+        turn(0.25, 400), None, gear="g", shaft="s", start="x", starts=(0.0, 0.0), speed_hz=1.0, same_start=False
+    )["mean_turn"]
+    assert isinstance(other, dict) and other["same_start"] is False
+
+
 def test_nothing_at_all_is_drawn_as_a_number() -> None:
     empty = WholeTurn(windows=np.zeros(300), teeth=20, turns=30)
     assert set(drawn(empty)["test_db"]) == {-30.0}

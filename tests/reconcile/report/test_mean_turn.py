@@ -40,6 +40,16 @@ def test_both_curves_and_the_window_are_drawn() -> None:
     assert 'class="window"' not in mean_turn(PICTURE, None)
 
 
+def test_the_test_stands_high_where_its_burst_is_and_the_baseline_nowhere() -> None:
+    found = dict(re.findall(r'<path d="([^"]+)" class="curve (\w+)"', mean_turn(PICTURE, None)))
+    curves = {css: [tuple(map(float, point.split())) for point in re.split("[ML]", d)[1:]] for d, css in found.items()}
+    assert set(curves) == {"observed", "before"}
+    across = 720.0 - 62.0 - 14.0
+    high = [x for x, y in curves["observed"] if y < 0.5 * max(y for _, y in curves["observed"])]
+    assert 62.0 + across * 100 / 360 <= min(high) <= max(high) <= 62.0 + across * 110 / 360
+    assert len({y for _, y in curves["before"]}) == 1
+
+
 def test_without_a_curve_nothing_is_drawn() -> None:
     assert mean_turn({k: v for k, v in PICTURE.items() if k != "test_db"}, None) == ""
     assert "Over the turn of a gear" not in page(replace(REPORT, pictures={"mean_turn": {"gear": "pinion"}}))
