@@ -105,7 +105,8 @@ def answer(
     both = other.together if other is not None else None
     pair = pairs.best if pairs is not None and pairs.best is not None and other is pairs.best.beside else None
     held = _held(setting, found, decision, layout, unknown, other, pair) if decision.chosen else None
-    decision, unknown = _forecast(decision, held, unknown)
+    decision = by_forecast(decision, held, measured=setting.changes.with_baseline)
+    unknown = unknown if decision.word == "unknown_physics" else None
     struck = [n for n in struck_said(setting, found, decision)[1] if n in found.screen.names][:MOST_STRUCK]
     sizes = _sizes(setting, found, decision, pairs, other, meter) if missing else ()
     ranked = ranked_causes(found, decision, weights, setting.changes.observed, other, struck, *sizes) if missing else ()
@@ -154,12 +155,6 @@ def _sizes(
     beside = other is not None or (pairs is not None and pairs.best is not None and bool(pairs.best.others))
     alone = decision.word in ("explained", "ambiguous") and not beside
     return sizes_of(pairs), heard, by_levels(setting, found, decision.chosen, meter) if alone else {}
-
-
-def _forecast(decision: Decision, held: HeldOut | None, unknown: Unknown | None) -> tuple[Decision, Unknown | None]:
-    """The decision by held-out data, and what no known effect explains, if that is still the answer."""
-    decision = by_forecast(decision, held)
-    return decision, unknown if decision.word == "unknown_physics" else None
 
 
 def _pictures(

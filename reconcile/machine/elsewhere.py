@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from reconcile.machine.decide import LEFT_OVER, LITTLE_LEFT, UNMATCHED, Decision, what_is_open
+from reconcile.machine.decide import LEFT_OVER, LITTLE_LEFT, NAME_P, UNMATCHED, Decision, what_is_open
 from reconcile.machine.heldout import LATER, MANY
 from reconcile.machine.weigh import MOST_NAMED
 from reconcile.machine.words import next_experiment, title
@@ -55,9 +55,9 @@ def better_elsewhere(held: HeldOut, term: str, site: str, heard: Mapping[str, fl
     return sorted(found, key=lambda p: -p.gain)[: MOST_PLACES - 1]
 
 
-def by_forecast(decision: Decision, held: HeldOut | None) -> Decision:
+def by_forecast(decision: Decision, held: HeldOut | None, *, measured: bool = True) -> Decision:
     """The decision, where it leaves open only the place of one effect and held-out data speak for the first of these
-    places: the leader is named.
+    places: the leader is named. `measured`: whether there is a baseline.
 
     With few views, places that strike at the same lines stay in a set by half of the leader's evidence; what a pit at
     the wrong end forecasts tells them apart. Of sets of the rig presets and of the proof's rotors whose first place is
@@ -69,7 +69,7 @@ def by_forecast(decision: Decision, held: HeldOut | None) -> Decision:
     if decision.word == "unknown_physics":
         return _by_all_of_it(decision, held)
     if decision.reasons == (LITTLE_LEFT,):
-        return _by_half_of_it(decision, held)
+        return _by_half_of_it(decision, held) if measured else decision
     if decision.word != "ambiguous" or len(terms) != 1 or not others or held is None or held.effects != (first,):
         return decision
     told = {f"{p.term}@{p.site}": p for p in held.placebos if p.draws >= MANY}
@@ -86,7 +86,7 @@ def _by_all_of_it(decision: Decision, held: HeldOut | None) -> Decision:
     effect's own forecast, if that brings nearly all that a perfect model would, and more than a black box, than any
     wrong law and than it does at any other place, shows that nothing else is there."""
     first, *others = decision.chosen or ("",)
-    if decision.reasons != (UNMATCHED,) or held is None or held.effects != (first,):
+    if decision.reasons != (UNMATCHED,) or decision.p > NAME_P or held is None or held.effects != (first,):
         return decision
     told = {f"{p.term}@{p.site}": p.gain for p in held.placebos if p.draws >= MANY}
     if held.ceiling is None or held.black_box is None or not told or any(n not in told for n in others):
@@ -101,17 +101,20 @@ def _by_all_of_it(decision: Decision, held: HeldOut | None) -> Decision:
 def _by_half_of_it(decision: Decision, held: HeldOut | None) -> Decision:
     """Not decidable for the little that the best effect leaves of single lines: named with that remark, or told as the
     set that it is, where its forecast brings half of what a perfect model would, more than retuning, a black box and
-    every wrong law and place do."""
+    every wrong law and place do; a name only by the lower end of what it brings, and where no sound machine of a
+    thousand shows as much: held-out points are of the same two recordings, which agree with each other."""
     chosen = decision.chosen
     if decision.word != "not_decidable" or held is None or held.effects != chosen[:1]:
         return decision
-    if held.ceiling is None or held.black_box is None or not held.placebos:
+    if held.ceiling is None or held.black_box is None or not any(p.draws >= MANY for p in held.placebos):
         return decision
-    rivals = CLEARLY + max(held.black_box, held.retuned or 0.0, *(p.gain for p in held.placebos))
+    ahead = CLEARLY_LATER if held.held.startswith(LATER) else CLEARLY
+    rivals = max(CLEARLY + max(held.black_box, held.retuned or 0.0), ahead + max(p.gain for p in held.placebos))
     if not (held.gain_low >= LEAST_GAIN and held.gain >= max(HALF_OF_IT * held.ceiling, rivals)):
         return decision
     if len(chosen) == 1:
-        return replace(decision, word="explained", reasons=(LEFT_OVER,))
+        sure = decision.p <= NAME_P and held.gain_low >= rivals
+        return replace(decision, word="explained", reasons=(LEFT_OVER,)) if sure else decision
     few = len(chosen) < MOST_NAMED
     return replace(decision, word="ambiguous", reasons=(what_is_open(chosen), LEFT_OVER)) if few else decision
 

@@ -221,8 +221,9 @@ def struck_said(setting: Setting, found: Found, decision: Decision) -> tuple[str
     places = struck_somewhere(setting, found, decision)
     if not places:
         return "", ()
-    firmest = struck_parts(setting, found, decision.chosen[0])[0]
-    return OF_ITS_PLAY if by_play(setting, decision.chosen[0], firmest) else OF_ANOTHER, places
+    parts = struck_parts(setting, found, decision.chosen[0])
+    told = next((part for part in parts if set(part) & set(places)), parts[0])
+    return OF_ITS_PLAY if by_play(setting, decision.chosen[0], told) else OF_ANOTHER, places
 
 
 def outweighs(seen: Beside) -> bool:

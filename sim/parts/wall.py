@@ -19,10 +19,11 @@ SOUGHT_DAMPING = (1e3, 3e5)
 """Collision damping, N s/m, of which drawings say nothing: the paper's Table 1 has 2e5, its reference solutions 2e3 and
 300. Below some 5e3 a fit shows the same whatever it is (levels move by less than 0.3 dB), at 2e5 it rings no more."""
 SOUGHT_FRICTION_SPEED = (1e-3, 1e-1)
-"""Speed of the regularised friction, m/s. A contact gives way elastically by some microns before it slides (1 to 3 um,
-Canudas de Wit et al. 1995, IEEE Trans. Autom. Control 40, 419-425; Mindlin 1949, J. Appl. Mech. 16, 259-268): at the
-frequencies of teeth, 0.5 to 5 kHz, as much as a friction that is full at 3e-3 to 1e-1 m/s. At the 1e-4 of the paper's
-reference solutions a ring that is all but at rest sticks and slips, and rattles by 30 dB more."""
+"""Speed of the regularised friction, m/s: a number of the model, of which nothing is known of any seat. Contacts give
+way and lose energy before they slide (R. D. Mindlin, "Compliance of elastic bodies in contact", J. Appl. Mech. 16
+(1949) 259-268, for the giving way); a friction that is full only at such speeds loses it too. At the 1e-4 of the
+paper's reference solutions a ring that is all but at rest sticks and slips, and rattles by 30 dB more. Chosen by cases
+of the proof, whose generator lies within (docs/decisions/reconcile-rattle.md)."""
 WALL_PARAMS = (
     Param(
         name="gap",

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from reconcile.machine.decide import LEFT_OVER, LITTLE_LEFT, NO_PATTERN, UNMATCHED, Decision
+from reconcile.machine.decide import LEFT_OVER, LITTLE_LEFT, NAME_P, NO_PATTERN, UNMATCHED, Decision
 from reconcile.machine.elsewhere import (
     BY_FORECAST,
     CLEARLY,
@@ -155,6 +155,7 @@ def test_a_forecast_of_nearly_all_of_it_stands_for_a_pattern_that_no_draw_came_n
         (LONE, replace(FAR, gain_low=float("nan"))),
         (LONE, replace(FAR, black_box=0.79 - 0.5 * CLEARLY)),
         (LONE, replace(FAR, black_box=None)),
+        (replace(LONE, p=1.01 * NAME_P), FAR),
         (LONE, replace(FAR, ceiling=None)),
         (LONE, replace(FAR, placebos=(replace(FARTHER, gain=0.79 - 0.5 * CLEARLY),))),
         (LONE, replace(FAR, placebos=(replace(FARTHER, gain=0.79 - 0.9 * CLEARLY_LATER),), held=f"{LATER}: 30 Hz")),
@@ -176,11 +177,45 @@ FORETOLD = replace(
 )  # fmt: skip
 
 
+SURE = replace(FORETOLD, gain_low=0.27)
+
+
 def test_a_forecast_of_half_of_it_before_all_others_names_what_leaves_a_little() -> None:
-    found = by_forecast(LITTLE, FORETOLD)
+    found = by_forecast(LITTLE, SURE)
     assert (found.word, found.chosen, found.reasons) == ("explained", RING, (LEFT_OVER,))
-    bare = replace(FORETOLD, retuned=None)
+    bare = replace(SURE, retuned=None)
     assert by_forecast(LITTLE, bare).word == "explained"
+
+
+@pytest.mark.parametrize(
+    ("decision", "held", "measured"),
+    [
+        (replace(LITTLE, p=1.01 * NAME_P), SURE, True),
+        (LITTLE, FORETOLD, True),
+        (LITTLE, replace(SURE, gain_low=0.2 + 0.5 * CLEARLY), True),
+        (LITTLE, replace(SURE, held=f"{LATER}: 30 Hz"), True),
+        (LITTLE, SURE, False),
+    ],
+    ids=["seen in sound machines", "within", "hardly above", "one record", "no baseline"],
+)
+def test_a_name_needs_more_than_a_set(decision: Decision, held: HeldOut, measured: bool) -> None:
+    assert by_forecast(decision, held, measured=measured) is decision
+
+
+def test_a_set_is_told_with_less_but_not_without_a_baseline_or_of_one_record() -> None:
+    both = replace(LITTLE, chosen=(*RING, "inner_waviness@bearing2"), p=5.0 * NAME_P)
+    assert by_forecast(both, FORETOLD).word == "ambiguous"
+    assert by_forecast(both, FORETOLD, measured=False) is both
+    one = replace(FORETOLD, held=f"{LATER}: 30 Hz")
+    assert by_forecast(both, one) is both
+    ahead = replace(one, placebos=(replace(FORETOLD.placebos[1], gain=0.33 - 1.1 * CLEARLY_LATER),))
+    assert by_forecast(both, ahead).word == "ambiguous"
+
+
+def test_every_wrong_law_counts_wherever_it_stands_in_the_list() -> None:
+    for placebos in (SURE.placebos, SURE.placebos[::-1]):
+        beaten = tuple(replace(p, gain=0.33) if p.term == "outer_waviness" else p for p in placebos)
+        assert by_forecast(LITTLE, replace(SURE, placebos=beaten)) is LITTLE
 
 
 def test_and_tells_the_set_that_it_is_where_more_effects_are_in_question() -> None:
@@ -194,18 +229,19 @@ def test_and_tells_the_set_that_it_is_where_more_effects_are_in_question() -> No
 @pytest.mark.parametrize(
     ("decision", "held"),
     [
-        (replace(LITTLE, reasons=("8 effects look alike",)), FORETOLD),
+        (replace(LITTLE, reasons=("8 effects look alike",)), SURE),
         (LITTLE, None),
-        (LITTLE, replace(FORETOLD, effects=("radial_clearance@bearing1",))),
-        (LITTLE, replace(FORETOLD, gain_low=LEAST_GAIN - 0.01)),
-        (LITTLE, replace(FORETOLD, gain_low=float("nan"))),
-        (LITTLE, replace(FORETOLD, ceiling=0.34 / HALF_OF_IT)),
-        (LITTLE, replace(FORETOLD, ceiling=None)),
-        (LITTLE, replace(FORETOLD, black_box=0.33 - 0.5 * CLEARLY)),
-        (LITTLE, replace(FORETOLD, black_box=None)),
-        (LITTLE, replace(FORETOLD, retuned=0.33 - 0.5 * CLEARLY)),
-        (LITTLE, replace(FORETOLD, placebos=(replace(FORETOLD.placebos[0], gain=0.33 - 0.5 * CLEARLY),))),
-        (LITTLE, replace(FORETOLD, placebos=())),
+        (LITTLE, replace(SURE, effects=("radial_clearance@bearing1",))),
+        (LITTLE, replace(SURE, gain_low=LEAST_GAIN - 0.01)),
+        (LITTLE, replace(SURE, gain_low=float("nan"))),
+        (LITTLE, replace(SURE, ceiling=0.34 / HALF_OF_IT)),
+        (LITTLE, replace(SURE, ceiling=None)),
+        (LITTLE, replace(SURE, black_box=0.33 - 0.5 * CLEARLY)),
+        (LITTLE, replace(SURE, black_box=None)),
+        (LITTLE, replace(SURE, retuned=0.33 - 0.5 * CLEARLY)),
+        (LITTLE, replace(SURE, placebos=(replace(SURE.placebos[0], gain=0.33 - 0.5 * CLEARLY),))),
+        (LITTLE, replace(SURE, placebos=())),
+        (LITTLE, replace(SURE, placebos=SURE.placebos[:1])),
     ],
 )  # fmt: skip
 def test_and_a_lesser_one_does_not(decision: Decision, held: HeldOut | None) -> None:

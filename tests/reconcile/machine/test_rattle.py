@@ -49,6 +49,15 @@ def test_and_about_the_nearest_that_there_are_where_few_come_near(monkeypatch: p
     assert chosen == [found.known.terms[k] for k in np.argsort(-evidence(found))[:AROUND]]
 
 
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_so_many_as_are_asked_for(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    setting, found = found_in(OBSERVED)
+    for costly in ((), ("rub",)):
+        monkeypatch.setattr(rattle, "COSTLY", costly)
+        assert len(draws_around(setting, found, RIGHT, count)) == count  # type: ignore[arg-type]
+    assert AROUND == 3
+
+
 def test_the_likelihood_over_no_change_is_nothing_for_no_change() -> None:
     setting, _ = found_in(OBSERVED)
     drawn = np.array([np.zeros(FEATURES), OBSERVED])

@@ -23,6 +23,7 @@ from reconcile.machine.second import (
     STRUCK_BESIDE_PLAY,
     Beside,
     beside,
+    by_play,
     looks_for_second,
     outweighs,
     second_effect,
@@ -192,6 +193,41 @@ def test_what_strikes_for_sure_is_named_beside_a_first_effect_that_strikes_nowhe
     unsure, faint = found_in(seen((2,), 1), STRUCK - 1.0)
     assert struck_too(unsure, faint, loose) is None  # type: ignore[arg-type]
     assert struck_somewhere(unsure, faint, decision) == ()  # type: ignore[arg-type]
+
+
+def test_a_play_brings_impacts_at_its_own_bearings_lines_up_to_a_limit() -> None:
+    """A ring of 43 um alone brought 21.1 (bk030 of the proof), a pit beside one more than counts (b019)."""
+    assert 21.1 < STRUCK_BESIDE_PLAY < MOST
+    part = {"outer_spall@bearing1": 21.1, "outer_spall@bearing2": 19.6}
+
+    def of(first: str, own: float, struck: dict[str, float] = part) -> bool:
+        heard = {"outer_spall@bearing1": own}
+        return by_play(SimpleNamespace(direct=replace(NOTHING, evidence=heard)), first, struck)  # type: ignore[arg-type]
+
+    assert of("fit_clearance_series@bearing1", 21.1)
+    assert of("fit_clearance_series@bearing1", 10.0), "two thirds of the deviations are as good"
+    assert not of("fit_clearance_series@bearing1", 9.0), "the lines stand at another bearing's place"
+    assert not of("fit_clearance_series@bearing1", 0.0)
+    assert not of("fit_clearance_series@bearing3", 21.1), "of another bearing nothing is heard"
+    assert not of("unbalance@pinion", 21.1)
+    assert not of("fit_clearance_series@bearing1", 25.0, {"outer_spall@bearing1": 25.0})
+
+
+@pytest.mark.slow
+def test_of_two_struck_parts_the_one_that_is_told_says_whether_its_play_brings_it() -> None:
+    setting, found = two_parts((2,), 0)
+    decision = replace(decide(found.screen, views=9), word="explained", chosen=(NAMES[2],))
+    assert set(struck_somewhere(setting, found, decision)) == set(OTHER_PARTS)  # type: ignore[arg-type]
+    others = set(OTHER_PARTS)
+    for brings, shows, where in (
+        (others, OF_ITS_PLAY, others),
+        ({NAMES[0]}, OF_ITS_PLAY, {NAMES[0]}),
+        (set(), OF_ANOTHER, others),
+    ):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("reconcile.machine.second.by_play", lambda _s, _f, part, own=brings: set(part) == own)
+            told = struck_said(setting, found, decision)  # type: ignore[arg-type]
+            assert (told[0], set(told[1])) == (shows, where)
 
 
 @pytest.mark.slow
