@@ -43,7 +43,8 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
-    ("baker", "baker"), ("twelfth", "twelfth"), ("xenial", "xenial"), ("zenith", "zenith"), ("zenith", "after"),
+    ("chandler", "chandler"), ("baker", "baker"), ("twelfth", "twelfth"), ("xenial", "xenial"), ("zenith", "zenith"),
+    ("zenith", "after"),
     ("inquest", "inquest"), ("jury", "jury"), ("clear", "clear"), ("vast", "vast"), ("young", "young"),
     ("mixed", "mixed"), ("mixed", "resumed"), ("mixed", "last"), ("mixed", "closing"), ("wide", "wide"),
     ("held", "held"), ("held", "begun"),
