@@ -101,7 +101,7 @@ LOOSE = ("fit_clearance_series@bearing1", "radial_clearance@bearing2")
     [
         (LOOSE, FAR_AHEAD, Rest(unmet=0.0, kept=MOST_KEPT), "explained"),
         (LOOSE, FAR_AHEAD - 0.1, Rest(unmet=0.0, kept=MOST_KEPT), "not_decidable"),
-        (LOOSE, FAR_AHEAD, Rest(unmet=0.1, kept=MOST_KEPT), "not_decidable"),
+        (LOOSE, FAR_AHEAD, Rest(unmet=0.01, kept=MOST_KEPT), "not_decidable"),
         (LOOSE, FAR_AHEAD, Rest(unmet=0.0, kept=MOST_KEPT - 0.01), "not_decidable"),
         (LOOSE[::-1], FAR_AHEAD, Rest(unmet=0.0, kept=MOST_KEPT), "not_decidable"),
     ],
@@ -115,6 +115,9 @@ def test_a_loose_ring_far_ahead_whose_lines_are_met_need_not_foretell_how_it_rat
     nearer, found_so = revised(4.91, 4.5), SimpleNamespace(screen=screen)
     told = proved(decision, CAUSES, found_so, nearer, held(-0.01, names[0]))  # type: ignore[arg-type]
     assert told[0].word == word
+    worse = proved(decision, CAUSES, found_so, nearer, held(-0.5, names[0]))  # type: ignore[arg-type]
+    assert worse[0].word == word, "how far it forecasts the wrong way says no more"
+    assert 0.6 < MOST_KEPT < 0.77, "which bk069 of the proof had"
     far = proved(decision, CAUSES, found_so, revised(4.91, 5.0), held(-0.01, names[0]))  # type: ignore[arg-type]
     assert far[0].word == "not_decidable", "the machine with it must come nearer"
 
