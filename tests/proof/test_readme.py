@@ -32,8 +32,8 @@ ROWS = {
 }
 """The commit with which a row begins, and the sections it is of."""
 EARLIER = (
-    "inquest", "jury", "clear", "vast", "young", "mixed", "resumed", "last", "closing", "wide", "teeth", "held", "begun",
-    "hearing", "entire",
+    "inquest", "jury", "clear", "vast", "young", "mixed", "resumed", "last", "closing", "wide", "teeth", "held",
+    "begun", "hearing", "entire",
 )  # fmt: skip
 """Sections of the twelve plans that have one row."""
 COLUMNS = (("single", "place"), ("double", "both"), ("open", "unknown_flagged"), ("null", "alarm"))
