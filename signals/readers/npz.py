@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import zipfile
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -34,10 +35,22 @@ def _contents(path: Path, archive: zipfile.ZipFile, bounds: Bounds) -> Contents:
         unpacked = sum(member.file_size for member in members)
         message = "is too large once unpacked"
         bounds.check(path.name, message=message, given=unpacked, allowed=bounds.unpacked_bytes, unit="bytes")
-        entries = {m.filename.removesuffix(".npy"): _entry(path, archive, m) for m in members if _is_array(m)}
+        arrays = [m for m in members if _is_array(m)]
+        entries = {m.filename.removesuffix(".npy"): _entry(path, archive, m) for m in arrays}
+        if len(entries) < len(arrays):
+            name, _ = Counter(m.filename for m in arrays).most_common(1)[0]
+            raise refused(path, f"it holds {name[:80]} more than once")
         rate = entries.get(RATE)
-        stated = None if rate is None or rate.shape not in ((), (1,)) else float(rate.load().reshape(-1)[0])
+        stated = None if rate is None or rate.shape not in ((), (1,)) else _rate(path, rate.load().reshape(-1)[0])
         return Contents(entries=entries, rate_hz=stated)
+
+
+def _rate(path: Path, value: np.generic) -> float:
+    """SpecError unless it is a number that a rate can be."""
+    rate = float(value) if value.dtype.kind in "fiu" else math.nan
+    if not (math.isfinite(rate) and rate > 0.0):
+        raise refused(path, f"its {RATE} is {value}, not a number above 0")
+    return rate
 
 
 def _is_array(member: zipfile.ZipInfo) -> bool:

@@ -37,6 +37,21 @@ def npy(array: np.ndarray) -> bytes:
     return stream.getvalue()
 
 
+def test_an_array_that_is_there_twice_is_refused_not_chosen(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "r.npz", "w") as archive, pytest.warns(UserWarning, match="Duplicate"):
+        archive.writestr("a.npy", npy(X))
+        archive.writestr("a.npy", npy(2 * X))
+    refused(tmp_path / "r.npz", "it holds a.npy more than once")
+
+
+@pytest.mark.parametrize("rate", [np.nan, np.inf, 0.0, -1000.0, True])
+def test_a_rate_that_is_none_is_refused(rate: float, tmp_path: Path) -> None:
+    np.savez(tmp_path / "r.npz", a=X, sampling_rate_hz=np.array(rate))
+    refused(tmp_path / "r.npz", "its sampling_rate_hz is .*, not a number above 0")
+    np.savez(tmp_path / "r.npz", a=X, sampling_rate_hz=np.array([1000]))
+    assert parse(ABOUT, tmp_path / "r.npz").recording.sampling_rate_hz == 1000.0
+
+
 @pytest.mark.slow
 def test_a_zip_bomb_is_refused_by_its_directory(tmp_path) -> None:
     path = tmp_path / "bomb.npz"
