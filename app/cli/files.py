@@ -16,7 +16,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from app.guards.json_text import NotStrictJson, check_unicode
+from app.guards.json_text import NotStrictJson, check_unicode, twice
 from sim.core.errors import Problem, SpecError
 
 
@@ -43,9 +43,8 @@ def strict_json(text: str, field: str) -> object:
     def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
         found = dict(pairs)
         if len(found) < len(pairs):
-            keys = [key for key, _ in pairs]
-            twice = next(key for key in keys if keys.count(key) > 1)
-            raise SpecError(Problem(field=field, message="has a key twice", given=twice[:80], allowed="each key once"))
+            again = twice(key for key, _ in pairs)
+            raise SpecError(Problem(field=field, message="has a key twice", given=again[:80], allowed="each key once"))
         return found
 
     try:

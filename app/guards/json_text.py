@@ -96,12 +96,12 @@ def _int(text: str) -> int:
 def _pairs(pairs: list[tuple[str, object]]) -> dict[str, object]:
     document = dict(pairs)
     if len(document) != len(pairs):
-        raise NotStrictJson(f"the key {_twice(name for name, _ in pairs)[:80]!r} appears twice in one object")
+        raise NotStrictJson(f"the key {twice(name for name, _ in pairs)[:80]!r} appears twice in one object")
     return document
 
 
-def _twice(names: Iterable[str]) -> str:
-    """The first name that was there before; one pass, as an object may have a million names."""
+def twice(names: Iterable[str]) -> str:
+    """The first name that was there before, in one pass, as an object may have a million; ValueError without one."""
     seen: set[str] = set()
     for name in names:
         if name in seen:
