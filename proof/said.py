@@ -6,8 +6,8 @@ SECTIONS = {
     "chandler": "No version of the engine had met these before their run. Two ran at once, for some minutes beside a "
     "reader's short commands, which core-seconds show. What no drawing says of a loose ring is searched wider "
     "([decision](decisions/reconcile-rattle.md)); these cases had no part in it. Since then what leaves a little of a "
-    "change needs more to be named by its forecast, which no answer here had a part in, and of two struck parts the "
-    "one that is told says whether a play brings it.",
+    "change needs more to be named by its forecast, by which no answer here is another (ch010, ch012, ch039 and ch065 "
+    "were run again), and of two struck parts the one that is told says whether a play brings it.",
     "baker": "No version of the engine had met these before their run. Two ran at once, beside other work, which "
     "core-seconds show. The little that a likely effect leaves of lines is a remark beside its name, an order of no "
     "part that rose goes before a name that leaves the level change as it is, and rings that nothing speaks for are "
