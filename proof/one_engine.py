@@ -100,7 +100,8 @@ def _of(design: Design, runs: Sequence[Run], results: Path, before: str) -> str:
     said = f"{_by_one(run, len(cases))}{_by_others(run, others, len(wider))}{LEFT[design.split] if left else ''}"
     first = [*wrap(before, WIDTH), ""] if before else []
     seen = seen_singles(run.scores, stored(results / f"visible-{design.split}.json"))
-    told = wrap(f"{lips(run.scores, cases)}{seen}", WIDTH)
+    pairs = seen_pairs(run.scores, stored(results / f"visible-{design.split}.json"))
+    told = wrap(f"{lips(run.scores, cases)}{seen}{pairs}", WIDTH)
     table = together(run.scores, wider)
     parts = [title, "", *first, *wrap(said, WIDTH), "", *_again(run), "", table, "", *by_law(run.scores), "", *told]
     return "\n".join(parts)
@@ -195,6 +196,20 @@ def seen_singles(scores: Sequence[Score], seen: Mapping[str, Visible]) -> str:
     return (
         f" Of single effects at the target condition that move the spectrum three times as far as drift or more "
         f"{told[0]} are named with their place; of the others {told[1]} (`python -m proof visible`)."
+    )
+
+
+def seen_pairs(scores: Sequence[Score], seen: Mapping[str, Visible]) -> str:
+    """Pairs at the target condition by how far the fainter effect moves what the other shows; empty where that is not
+    stored of all."""
+    pairs = [s for s in scores if s.group == "double" and at_target(s)]
+    if not pairs or any(s.name not in seen or not seen[s.name].parts_db for s in pairs):
+        return ""
+    far = [s for s in pairs if min(seen[s.name].parts_db) >= CLEAR * seen[s.name].drift_db]
+    rest = [s for s in pairs if s not in far]
+    told = [f"{sum(bool(s.both) for s in part)} of {len(part)}" for part in (far, rest)]
+    return (
+        f" Of pairs of which each moves what the other shows so far {told[0]} are named whole; of the others {told[1]}."
     )
 
 

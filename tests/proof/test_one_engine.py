@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from proof.entire import cases_of_design, held
-from proof.one_engine import CLEAR, DESIGNS, FAR_OFF, of_sizes, one_engine, seen_singles
+from proof.one_engine import CLEAR, DESIGNS, FAR_OFF, of_sizes, one_engine, seen_pairs, seen_singles
 from proof.plan import Case
 from proof.score.rates import MEASURES, at_target, rate
 from proof.targets import TARGETS, written
@@ -138,6 +138,21 @@ def test_single_effects_are_parted_by_how_far_they_move_the_spectrum() -> None:
     said = seen_singles(scores, seen)
     assert f"{right}/{right} = 100 %" in said and f"0/{6 - right} = 0 %" in said
     assert seen_singles(scores, {}) == "" == seen_singles([], seen)
+
+
+def test_pairs_are_parted_by_how_far_the_fainter_moves_what_the_other_shows() -> None:
+    scores = [s for s in read(STORED) if s.group == "double" and at_target(s)][:4]
+    assert len(scores) == 4
+    ratios = (CLEAR + 0.1, CLEAR - 0.1, CLEAR + 0.1, CLEAR - 0.1)
+    seen = {
+        s.name: Visible(effect_db=9.0, drift_db=1.0, new_share=0.0, parts_db=(9.0, ratio))
+        for s, ratio in zip(scores, ratios, strict=True)
+    }
+    told = [replace(s, both=k < 3) for k, s in enumerate(scores)]
+    assert "so far 2 of 2 are named whole; of the others 1 of 2." in seen_pairs(told, seen)
+    assert seen_pairs(told, {}) == "" == seen_pairs([], seen)
+    bare = {name: replace(one, parts_db=()) for name, one in seen.items()}
+    assert seen_pairs(told, bare) == ""
 
 
 def test_how_far_sizes_are_off_is_told_of_those_that_were_told() -> None:
