@@ -31,6 +31,7 @@ from reconcile.machine.revised import Revised, paths, revised_machine
 from reconcile.machine.second import Beside, Together, fitted_change, second_effect, struck_said
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.stages import all_stages, gate_stage, of_pairs, revisions
+from reconcile.machine.strike_size import strike_sizes
 from reconcile.machine.unknown import Unknown, at_supports
 from reconcile.machine.unlisted import UNLISTED, beyond_the_known
 from reconcile.machine.weigh import merged_weights, of_one_part, of_the_set
@@ -148,13 +149,16 @@ def answer(
 
 def _sizes(
     setting: Setting, found: Found, decision: Decision, pairs: Pairs | None, other: Beside | None, meter: Meter
-) -> tuple[Together | None, dict[str, Severity], dict[str, Severity]]:
-    """Of what the answer stands on: beside a second effect; by what is heard; by levels, where the first is alone."""
+) -> tuple[Together | None, dict[str, Severity], dict[str, Severity], dict[str, Severity]]:
+    """Of what the answer stands on: beside a second effect; by what is heard; by levels, where the first is alone; by
+    both edges of a pit."""
     names = list(dict.fromkeys((*decision.chosen[:1], *(other.names[:1] if other else ()), *decision.chosen[1:])))
-    heard = {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, names, meter)}
+    edges = strike_sizes(setting, names)
+    unsized = [n for n in names if n not in edges]
+    heard = {**burst_sizes(setting, decision.chosen, meter), **pit_sizes(setting, unsized, meter)}
     beside = other is not None or (pairs is not None and pairs.best is not None and bool(pairs.best.others))
     alone = decision.word in ("explained", "ambiguous") and not beside
-    return sizes_of(pairs), heard, by_levels(setting, found, decision.chosen, meter) if alone else {}
+    return sizes_of(pairs), heard, by_levels(setting, found, decision.chosen, meter) if alone else {}, edges
 
 
 def _pictures(

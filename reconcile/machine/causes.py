@@ -31,11 +31,14 @@ def ranked_causes(
     sought: Together | None = None,
     measured: Mapping[str, Severity] | None = None,
     levels: Mapping[str, Severity] | None = None,
+    strikes_apart: Mapping[str, Severity] | None = None,
 ) -> tuple[Cause, ...]:
     """The effects the verdict stands on, a second one with what it explains, those that share the impacts of another
     part (`struck`), and the rest by score. `sought`: the best of several seconds, where sizes had to be searched;
     `measured`: sizes by what is heard of pits and faults of teeth; `levels`: where machines were simulated to tell them
-    by levels (else the nearest draws do)."""
+    by levels (else the nearest draws do); `strikes_apart`: sizes by both edges of a pit, beside which no other counts.
+    """
+    heard, edges = measured or {}, strikes_apart or {}
     apart = {*decision.chosen, *(other.names[:1] if other else ())}
     told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
     rest = sorted((n for n in weights if n not in struck), key=lambda n: -told[n])
@@ -47,9 +50,8 @@ def ranked_causes(
         drawn = best_draws(found.view(name), found.known, name, observed, count=1)
         named = decision.word == "explained" and name == decision.chosen[0]
         by_levels = (levels or {}).get(name) or estimated_severity(found.view(name), found.known, name, observed)
-        alone = joined(by_levels, (measured or {}).get(name))
-        heard = name in (measured or {})
-        size = _between(alone, together if named and not heard else None)
+        alone = edges.get(name) or joined(by_levels, heard.get(name))
+        size = _between(alone, together if named and name not in {*heard, *edges} else None)
         causes.append(
             Cause(
                 term=term,
@@ -62,7 +64,7 @@ def ranked_causes(
             )
         )
     if other is not None:
-        causes.insert(1, _beside(found, other, measured or {}))
+        causes.insert(1, _beside(found, other, heard, edges))
     return tuple(causes)
 
 
@@ -89,7 +91,7 @@ def _reasons(decision: Decision, name: str) -> tuple[str, ...]:
     return decision.reasons if decision.word != "explained" or name in decision.chosen else ()
 
 
-def _beside(found: Found, other: Beside, measured: Mapping[str, Severity]) -> Cause:
+def _beside(found: Found, other: Beside, measured: Mapping[str, Severity], edges: Mapping[str, Severity]) -> Cause:
     """The second named cause, measured by what the first one leaves, and by what is heard of it."""
     name, left, view = other.names[0], other.left, other.view
     term, site = name.split("@")
@@ -98,13 +100,13 @@ def _beside(found: Found, other: Beside, measured: Mapping[str, Severity]) -> Ca
             term=term,
             site=site,
             score=float(other.evidence[0]),
-            severity=(size := joined(other.together.severity, measured.get(name))),
+            severity=(size := edges.get(name) or joined(other.together.severity, measured.get(name))),
             named=True,
             reasons=(TOGETHER,),
             values=_sized(other.together.terms[0][1], size),
         )
     drawn = best_draws(view, found.known, name, left, count=1)
-    size = joined(estimated_severity(view, found.known, name, left), measured.get(name))
+    size = edges.get(name) or joined(estimated_severity(view, found.known, name, left), measured.get(name))
     return Cause(
         term=term,
         site=site,
