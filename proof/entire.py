@@ -100,6 +100,8 @@ BAKER = Design(split="baker", groups=WIDE.groups, turned=1531, rows=HELD.rows, b
 """As twelfth, of the rarer laws and most of the pairs that it leaves out."""
 CHANDLER = Design(split="chandler", groups=WIDE.groups, turned=1637, rows=HELD.rows, begun=88, initials="ch")
 """As baker, of the rarer laws and most of the pairs that it leaves out."""
+DYER = Design(split="dyer", groups=WIDE.groups, turned=1741, rows=HELD.rows, begun=96, initials="dy")
+"""As chandler, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -175,6 +177,11 @@ def baker() -> tuple[Case, ...]:
 def chandler() -> tuple[Case, ...]:
     """All cases of the fourteenth."""
     return cases_of_design(CHANDLER)
+
+
+def dyer() -> tuple[Case, ...]:
+    """All cases of the fifteenth."""
+    return cases_of_design(DYER)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

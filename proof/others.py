@@ -14,6 +14,7 @@ from proof.entire import (
     baker,
     chandler,
     clear,
+    dyer,
     entire,
     held,
     inquest,
@@ -58,7 +59,7 @@ def cases_of(split: Split) -> tuple[Case, ...]:
 MADE: Mapping[str, Callable[[], tuple[Case, ...]]] = {
     "others": others, "kinds": kinds, "entire": entire, "teeth": teeth, "held": held, "wide": wide, "mixed": mixed,
     "young": young, "vast": vast, "clear": clear, "jury": jury, "inquest": inquest, "zenith": zenith,
-    "xenial": xenial, "twelfth": twelfth, "baker": baker, "chandler": chandler,
+    "xenial": xenial, "twelfth": twelfth, "baker": baker, "chandler": chandler, "dyer": dyer,
 }  # fmt: skip
 
 

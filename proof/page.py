@@ -43,6 +43,7 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
+    ("dyer", "dyer"),
     ("chandler", "chandler"), ("baker", "baker"), ("twelfth", "twelfth"), ("xenial", "xenial"), ("zenith", "zenith"),
     ("zenith", "after"),
     ("inquest", "inquest"), ("jury", "jury"), ("clear", "clear"), ("vast", "vast"), ("young", "young"),

@@ -21,37 +21,10 @@ from proof.rotors.machine import ROTORS
 from proof.unknown import OPEN
 
 Split = Literal[
-    "dev",
-    "sealed",
-    "later",
-    "third",
-    "fourth",
-    "quiet",
-    "unmet",
-    "next",
-    "others",
-    "rotors",
-    "rotors-later",
-    "kinds",
-    "beside",
-    "pitted",
-    "anew",
-    "entire",
-    "teeth",
-    "held",
-    "wide",
-    "mixed",
-    "young",
-    "vast",
-    "clear",
-    "jury",
-    "inquest",
-    "zenith",
-    "xenial",
-    "twelfth",
-    "baker",
-    "chandler",
-]
+    "dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next", "others", "rotors", "rotors-later",
+    "kinds", "beside", "pitted", "anew", "entire", "teeth", "held", "wide", "mixed", "young", "vast", "clear",
+    "jury", "inquest", "zenith", "xenial", "twelfth", "baker", "chandler", "dyer",
+]  # fmt: skip
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
     "dev": 20_240_611,
@@ -84,6 +57,7 @@ SEEDS = {
     "twelfth": 4_693_170_258,
     "baker": 8_310_659_427,
     "chandler": 7_600_884_850,
+    "dyer": 8_112_450_613,
 }
 COUNTS = {
     "dev": {

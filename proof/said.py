@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "dyer": "No version of the engine had met these before their run. Two ran at once. Pits whose edges are both heard "
+    "are sized by the angle between a ball's strikes ([decision](decisions/reconcile-strikes.md)), and a sure driving "
+    "effect that leaves too much is asked for what it makes rattle ([decision](decisions/reconcile-interplay.md)); "
+    "these cases had no part in it.",
     "chandler": "No version of the engine had met these before their run. Two ran at once, for some minutes beside a "
     "reader's short commands, which core-seconds show. What no drawing says of a loose ring is searched wider "
     "([decision](decisions/reconcile-rattle.md)); these cases had no part in it. Since then what leaves a little of a "

@@ -66,8 +66,17 @@ SINCE = (
         "bk001 and bk069, loose rings, not decidable before, named since; bk059, a set with the ring first since",
     ),
     (
-        "a pit of which both edges are heard is as long as the angle between a ball's two strikes "
-        "([decision](decisions/reconcile-strikes.md))",
+        (
+            "a sure driving effect that leaves too much is asked for what it makes rattle "
+            "([decision](decisions/reconcile-interplay.md))"
+        ),
+        "y072, an unbalance in a loose ring, unknown physics before; both named since",
+    ),
+    (
+        (
+            "a pit of which both edges are heard is as long as the angle between a ball's two strikes "
+            "([decision](decisions/reconcile-strikes.md))"
+        ),
         "the pits of `baker` and `chandler`, half of which were told too large or too small by more than 0.32",
     ),
 )

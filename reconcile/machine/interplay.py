@@ -15,7 +15,9 @@ import numpy as np
 from reconcile.atlas.candidates import size_parameter
 from reconcile.machine.asked import Asked
 from reconcile.machine.assimilate import Ensemble, simulated_again
+from reconcile.machine.decide import Decision
 from reconcile.machine.refine import known_term
+from reconcile.machine.setting import Found
 from reconcile.machine.sizes import sized
 from reconcile.machine.weigh import exclusive
 from sim.core.spec import TermSpec
@@ -35,6 +37,11 @@ FAINT = 0.0
 beside an unbalance alone none above -71."""
 
 
+SHAKEN = 20.0
+"""Log evidence of a driving effect from which it is looked for what it makes rattle, though it leaves too much itself:
+of two plans of the proof effects that no library has come to 8 at most, an unbalance in a loose ring (y072) to 32."""
+
+
 def drives(name: str) -> bool:
     """Whether an effect forces a motion."""
     return name.split("@", maxsplit=1)[0] in DRIVING
@@ -43,6 +50,15 @@ def drives(name: str) -> bool:
 def rattles(name: str) -> bool:
     """Whether an effect has a play."""
     return name.split("@", maxsplit=1)[0] in RATTLING
+
+
+def shaken(found: Found, decision: Decision) -> bool:
+    """Whether no known effect is adequate, but one that forces a motion is sure to be there: what it makes rattle shows
+    what neither shows alone. What no library has seldom comes with as much evidence of such a one."""
+    if decision.word != "unknown_physics" or not decision.chosen or not drives(decision.chosen[0]):
+        return False
+    told = dict(zip(found.screen.names, map(float, found.screen.evidence), strict=True))
+    return told[decision.chosen[0]] >= SHAKEN
 
 
 def interplaying(asked: Asked, start: Ensemble) -> Mapping[str, tuple[int, ...]]:

@@ -18,7 +18,7 @@ from reconcile.judge.space import Fitted
 from reconcile.machine.asked import LEAD, TEMPER, Asked, least_lead, promising
 from reconcile.machine.assimilate import simulated_again
 from reconcile.machine.decide import Decision
-from reconcile.machine.interplay import drives, interplaying, rattles
+from reconcile.machine.interplay import drives, interplaying, rattles, shaken
 from reconcile.machine.left_start import led_again, start_of
 from reconcile.machine.leftover import Leftover, leftover, ranked_seconds
 from reconcile.machine.library import Catalogued, joined
@@ -51,7 +51,8 @@ def best_left_pair(
 ) -> Pairs | None:
     """What stands beside the best effect, of at most so many that are simulated: nothing where none adds enough, where
     both leave what no known effects should, or where another effect alone or another first would do as well. None where
-    none is looked for, as where no known effect is adequate: two of them mimic much. `atlas`: draws of all effects."""
+    none is looked for, as where no known effect is adequate, unless one is `shaken`: two mimic much. `atlas`: draws of
+    all effects."""
     lines = _lines(setting, found, decision)
     if lines is None:
         return None
@@ -106,7 +107,9 @@ def _tempered(tried: Sequence[tuple[str, float, float | None]]) -> tuple[tuple[s
 
 def _lines(setting: Setting, found: Found, decision: Decision) -> Fitted | None:
     """The view of single lines in which a pair is fitted; None where none is looked for."""
-    if decision.word not in ("explained", "ambiguous") or not decision.chosen:
+    if decision.word not in ("explained", "ambiguous") and not shaken(found, decision):
+        return None
+    if not decision.chosen:
         return None
     first = decision.chosen[0]
     if strikes(first):

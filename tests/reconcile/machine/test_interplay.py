@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from reconcile.machine import interplay
-from reconcile.machine.interplay import FAINT, NEAR, SHARE, interplaying
+from reconcile.machine.decide import Decision
+from reconcile.machine.interplay import FAINT, NEAR, SHAKEN, SHARE, interplaying, shaken
 from sim.core.spec import TermSpec
 
 FIRST, MOMENT = "unbalance@pinion", 1e-2
@@ -96,3 +97,22 @@ def test_nothing_without_seconds_or_where_too_few_run(simulated: Simulation, mon
     assert interplaying(asked((OTHER,)), start()) == {} and calls == []
     monkeypatch.setattr(interplay, "simulated_again", lambda *_, **__: None)
     assert interplaying(asked((LOOSE,)), start()) == {}
+
+
+@pytest.mark.parametrize(
+    ("word", "first", "evidence", "told"),
+    [
+        ("unknown_physics", FIRST, SHAKEN, True),
+        ("unknown_physics", FIRST, SHAKEN - 0.1, False),
+        ("unknown_physics", LOOSE, SHAKEN + 9.0, False),
+        ("not_decidable", FIRST, SHAKEN + 9.0, False),
+        ("explained", FIRST, SHAKEN + 9.0, False),
+    ],
+)
+def test_a_sure_driving_effect_that_leaves_too_much_shakes_something(
+    word: str, first: str, evidence: float, told: bool
+) -> None:
+    decision = Decision(word=word, chosen=(first, OTHER), p=1e-6, reasons=())  # type: ignore[arg-type]
+    screen = SimpleNamespace(names=(OTHER, first), evidence=np.array([99.0, evidence]))
+    assert shaken(SimpleNamespace(screen=screen), decision) is told  # type: ignore[arg-type]
+    assert not shaken(SimpleNamespace(screen=screen), Decision(word=word, chosen=(), p=1e-6, reasons=()))  # type: ignore[arg-type]
