@@ -102,7 +102,7 @@ class TimeEntry(_Part):
 class Description(_Part):
     """What the numbers of a file are."""
 
-    sampling_rate_hz: Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)] | None = None
+    sampling_rate_hz: Annotated[float, Field(ge=1e-3, le=1e9, allow_inf_nan=False)] | None = None
     """May be left out only where the file itself states it (wav, flac, uff, tdms, mf4, `sampling_rate_hz` in npz and
     mat) or a `time` column gives it."""
     channels: Annotated[tuple[ChannelEntry, ...], Field(max_length=MAX_CHANNELS, strict=False)]
@@ -124,7 +124,7 @@ class Description(_Part):
     from 15 to 300 kW, channels on bearing housings."""
     condition: Literal["baseline", "unknown"] = "unknown"
     origin: Literal["measured", "simulated"] = "measured"
-    start_s: Annotated[float, Field(allow_inf_nan=False)] = 0.0
+    start_s: Annotated[float, Field(ge=-1e12, le=1e12, allow_inf_nan=False)] = 0.0
     """Time of the first sample, s."""
     notes: Annotated[str, Field(max_length=20_000)] = ""
     data: Annotated[str, Field(min_length=1, max_length=400)] | None = None

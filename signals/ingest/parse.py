@@ -11,7 +11,7 @@ import numpy as np
 from signals.ingest.calibrate import Scale, scales_of, unsensed
 from signals.ingest.description import Description, remarks
 from signals.ingest.pulses import check_shared, doubted, tacho_of, tacho_wants
-from signals.ingest.stamps import RATE_TOLERANCE, TIME_NAMES, Stamps, agree, check_unasked, in_seconds, is_time
+from signals.ingest.stamps import RATE_TOLERANCE, Stamps, agree, check_rate, in_seconds, unmentioned
 from signals.readers.guard import load_carefully
 from signals.readers.limits import Bounds
 from signals.readers.load import Loaded, Loader, Stored, Want
@@ -45,13 +45,13 @@ def parse(
     `loader`: `signals.readers.guard.load_apart` for a stranger's file.
     """
     check_units(description)
-    loaded = loader(path, _wants(description), () if description.time else TIME_NAMES, bounds or Bounds())
+    loaded = loader(path, _wants(description), description.time is None, bounds or Bounds())
     channels = loaded.wanted[: len(description.channels)]
     further = {want.field: s for want, s in zip(_further(description), loaded.wanted[len(channels) :], strict=True)}
     scales = scales_of(description.channels, [stored.unit for stored in channels])
     _check_lengths(description, channels)
     clock = _clock(description, loaded, further)
-    return _recording(description, clock, scales, channels, further)
+    return _recording(description, clock, scales, channels, further, loaded.remarks)
 
 
 def check_units(description: Description) -> None:
@@ -86,6 +86,7 @@ def _recording(
     scales: Sequence[Scale],
     stored: Sequence[Stored],
     further: Mapping[str, Stored],
+    of_file: tuple[str, ...],
 ) -> Ingested:
     operating = description.operating
     samples = np.empty((len(stored), stored[0].samples.size))
@@ -103,7 +104,7 @@ def _recording(
         notes=description.notes,
         start_s=clock.start_s,
     )
-    said = (*remarks(description), *clock.remarks, *unsensed(description.channels))
+    said = (*remarks(description), *of_file, *clock.remarks, *unsensed(description.channels))
     if description.tacho is None:
         return Ingested(recording=plain, remarks=said)
     by_name = dict(zip(plain.names, (s.samples for s in stored), strict=True))
@@ -129,45 +130,55 @@ def _check_lengths(description: Description, stored: Sequence[Stored]) -> None:
 
 def _clock(description: Description, loaded: Loaded, further: Mapping[str, Stored]) -> _Clock:
     """Sampling rate and time of the first sample: stated, in the file, or from time stamps; all must agree."""
-    channels = loaded.wanted[: len(description.channels)]
     stated, start_s = description.sampling_rate_hz, description.start_s
-    in_file = {s.rate_hz or loaded.rate_hz for s in channels}
-    rates = sorted(rate for rate in in_file if rate is not None)
-    if len(rates) > 1:
-        message = "differ in sampling rate; describe channels of one rate as one recording"
-        raise SpecError(Problem(field="channels", message=message, given=rates[:20], unit="Hz"))
-    if stated is not None and rates:
-        agree(stated, rates[0], "sampling_rate_hz", "the rate that the file itself states")
-    stamps = _stamps(description, loaded, further, stated or (rates[0] if rates else None))
+    in_file = _rate_in_file(description, loaded)
+    if stated is not None and in_file is not None:
+        agree(stated, in_file, "sampling_rate_hz", "the rate that the file itself states")
+    known = stated or in_file
+    stamps, said = _stamps(description, loaded, further, known)
     if stamps is not None:
+        check_rate(stamps.sampling_rate_hz, "time", "stamps are at")
         if "start_s" not in description.model_fields_set:
             start_s = stamps.first_s
-        if stated is not None or rates:
+        if known is not None:
             # both ends of the stretch may be off by what they were rounded to
             tolerance = max(RATE_TOLERANCE, 2 * stamps.rounded_s / stamps.span_s)
-            source = "the mean rate of the time stamps"
-            agree(stated or rates[0], stamps.sampling_rate_hz, "sampling_rate_hz", source, tolerance)
-        rates.append(stamps.sampling_rate_hz)
-    rate = stated or (rates[0] if rates else None)
+            agree(known, stamps.sampling_rate_hz, "sampling_rate_hz", "the mean rate of the time stamps", tolerance)
+        if stated is None:
+            said = (*stamps.remarks, *said)
+    rate = known or (None if stamps is None else stamps.sampling_rate_hz)
     if rate is None:
         message = "is stated neither here nor in the file, and is never guessed"
         raise SpecError(Problem(field="sampling_rate_hz", message=message, allowed="> 0", unit="Hz"))
-    said = stamps.remarks if stamps is not None and stated is None else ()
     return _Clock(sampling_rate_hz=rate, start_s=start_s, remarks=said)
+
+
+def _rate_in_file(description: Description, loaded: Loaded) -> float | None:
+    """The one rate that the file states for the channels."""
+    channels = loaded.wanted[: len(description.channels)]
+    every = {loaded.rate_hz if s.rate_hz is None else s.rate_hz for s in channels}
+    rates = sorted(rate for rate in every if rate is not None)
+    for rate in rates:
+        check_rate(rate, "sampling_rate_hz", "in the file is")
+    if len(rates) > 1:
+        message = "differ in sampling rate; describe channels of one rate as one recording"
+        raise SpecError(Problem(field="channels", message=message, given=rates[:20], unit="Hz"))
+    return rates[0] if rates else None
 
 
 def _stamps(
     description: Description, loaded: Loaded, further: Mapping[str, Stored], rate_hz: float | None
-) -> Stamps | None:
-    """What the time stamps say; those of an unmentioned time column are only looked at."""
+) -> tuple[Stamps | None, tuple[str, ...]]:
+    """What the time stamps say, and what is to be said of columns that were only looked at."""
     samples = loaded.wanted[0].samples.size
     if description.time is not None:
-        return in_seconds(further[TIME].samples, description.time.unit, samples, "time.unit")
-    for name, stored in loaded.optional.items():
-        raw = stored.samples
-        unit = stored.unit or ("s" if name.endswith("_s") else "")
-        if raw.size == samples and is_time(unit):
-            return in_seconds(raw, unit, samples, name)
-        if raw.size == samples:
-            check_unasked(raw, name, rate_hz)
-    return None
+        return in_seconds(further[TIME].samples, description.time.unit, samples, "time.unit"), ()
+    said: list[str] = []
+    for name, stored in loaded.times.items():
+        if stored.samples.size != samples:
+            continue
+        found, remark = unmentioned(stored.samples, name, stored.unit, rate_hz)
+        said += [remark] if remark else []
+        if found is not None:
+            return found, tuple(said)
+    return None, tuple(said)

@@ -7,16 +7,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from signals.readers.times import named_time, of_time
 from signals.rounded import MOST_DRIFT, drifting_grid, first_off_grid, regular_grid, resolution, roundings
 from signals.series import FloatArray
 from signals.timebase import JITTER_SHARE, irregular, read_time_base
 from signals.units import UNITS, find_unit, unit_of
 from sim.core.errors import Problem, SpecError
 
-TIME_NAMES = frozenset({"time", "time_s", "t", "t_s", "timestamp", "timestamps", "timestamp_s"})
-"""Columns of these names are looked at even when the description does not mention them."""
+RATES_HZ = (1e-3, 1e9)
+"""Sampling rates that a recording may have, wherever they are stated."""
 RATE_TOLERANCE = 1e-3
 LEAST_WHOLE_HZ = 8.0
+LEAST_SPAN_S, MOST_STAMP = 1e-100, 1e30
+"""Of all stamps, and of one as stored: with others nothing can be reckoned."""
 TIMES = {text: unit.factor for text, unit in UNITS.items() if unit.quantity == "time"}
 """Units of time and what they are in s."""
 UNASKED_TOLERANCE = 0.01
@@ -59,15 +62,9 @@ class Stamps:
         )
 
 
-def is_time(unit: str) -> bool:
-    """Whether the text is a unit of time."""
-    found = find_unit(unit) if unit else None
-    return found is not None and found.quantity == "time"
-
-
 def seconds(stamps: FloatArray, unit: str, field: str) -> FloatArray:
     """Stamps in s."""
-    if not is_time(unit):
+    if not of_time(unit):
         raise SpecError(Problem(field=field, message="is no unit of time", given=unit, allowed=", ".join(TIMES)))
     return stamps * unit_of(unit, field).factor
 
@@ -83,6 +80,7 @@ def in_seconds(raw: FloatArray, unit: str, samples: int, field: str) -> Stamps:
 
 def check_regular(raw: FloatArray, factor: float = 1.0) -> Stamps:
     """Stamps `factor` times `raw` that lie on a regular grid but for how `raw` is written; else SpecError."""
+    _check_size(raw, factor)
     base = read_time_base(raw * factor)
     grid = regular_grid(raw)
     if grid is not None:
@@ -119,6 +117,53 @@ def check_regular(raw: FloatArray, factor: float = 1.0) -> Stamps:
     raise irregular(base if place is None else replace(base, first_place=place))
 
 
+def _check_size(raw: FloatArray, factor: float) -> None:
+    largest = float(np.max(np.abs(raw), initial=0.0))
+    if math.isfinite(largest) and largest > MOST_STAMP:
+        message = "stamps are beyond any clock"
+        raise SpecError(Problem(field="time", message=message, given=f"{largest:g}", allowed=f"<= {MOST_STAMP:g}"))
+    span = float(raw[-1]) - float(raw[0]) if raw.size else 0.0
+    if 0.0 < span * factor < LEAST_SPAN_S:
+        message = "stamps are all alike: the last is next to nothing after the first"
+        raise SpecError(Problem(field="time", message=message, given=f"{span:g}"))
+
+
+def unmentioned(raw: FloatArray, name: str, unit: str, rate_hz: float | None) -> tuple[Stamps | None, str]:
+    """Stamps of a column (n,) that the description does not mention, if it is a time in a known unit, and what is to be
+    said of it; `unit`: as the file states it. One that is a time by its name must be regular.
+
+    A column that is none by its name is taken for one if its unit is of time and it rises throughout; without a unit
+    it is only told of.
+    """
+    named = named_time(name)
+    if of_time(unit) or (named is not None and not unit and named.unit):
+        if named is None and not _rises(raw):
+            return None, ""
+        return in_seconds(raw, unit or (named.unit if named else ""), raw.size, name), ""
+    if named is not None:
+        if unit and find_unit(unit) is not None:
+            return None, ""  # temperatures, say
+        check_unasked(raw, name, rate_hz)
+    elif not unit and _rises(raw) and not _regular(raw):
+        return None, (
+            f"{name}: rises throughout as a time does, in steps that differ, and was not looked at; if it is the "
+            "time, state `time` with its column and unit"
+        )
+    return None, ""
+
+
+def _rises(raw: FloatArray) -> bool:
+    return raw.size > 1 and bool(np.all(np.diff(raw) >= 0) and raw[-1] > raw[0])
+
+
+def _regular(raw: FloatArray) -> bool:
+    try:
+        check_regular(raw)
+    except SpecError:
+        return False
+    return True
+
+
 def check_unasked(stamps: FloatArray, name: str, rate_hz: float | None) -> None:
     """Stamps (n,) of a column whose unit nobody states, held against the rate, Hz, if one is known.
 
@@ -150,3 +195,12 @@ def agree(stated_hz: float, found_hz: float, field: str, source: str, tolerance:
     if abs(stated_hz - found_hz) > max(tolerance * found_hz, rounding):
         message = f"does not agree with {source}"
         raise SpecError(Problem(field=field, message=message, given=stated_hz, allowed=f"{found_hz:.9g}", unit="Hz"))
+
+
+def check_rate(rate_hz: float, field: str, whose: str) -> None:
+    """Refuse a rate that no recording of vibrations has, nor any arithmetic survives; `whose` begins the message."""
+    low, high = RATES_HZ
+    if not low <= rate_hz <= high:
+        message = f"{whose} no sampling rate of a vibration"
+        allowed = f"{low:g} to {high:g}"
+        raise SpecError(Problem(field=field, message=message, given=f"{rate_hz:.9g}", allowed=allowed, unit="Hz"))

@@ -27,7 +27,7 @@ def main() -> int:
     _confine(bounds)
     try:
         wanted = [Want(**want) for want in request["wanted"]]
-        found = load(Path(request["path"]), wanted, request["optional"], bounds)
+        found = load(Path(request["path"]), wanted, request["times"], bounds)
         answer = _answer(found, Path(request["folder"]))
     except SpecError as error:
         answer = {"problems": [problem.to_dict() for problem in error.problems]}
@@ -55,7 +55,8 @@ def _answer(found: Loaded, folder: Path) -> dict[str, object]:
     return {
         "rate_hz": found.rate_hz,
         "wanted": [_kept(stored, folder, f"w{i}") for i, stored in enumerate(found.wanted)],
-        "optional": {name: _kept(stored, folder, f"o{i}") for i, (name, stored) in enumerate(found.optional.items())},
+        "times": {name: _kept(stored, folder, f"t{i}") for i, (name, stored) in enumerate(found.times.items())},
+        "remarks": list(found.remarks),
     }
 
 

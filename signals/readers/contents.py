@@ -48,6 +48,7 @@ class Contents:
     """Arrays by name, in the order of the file. `numbered`: an integer column counts the arrays (a table's columns).
 
     `aliases`: other names of arrays. `together`: loads several at once, where one pass over the file gives them all.
+    `remarks`: what a person should know of the file.
     """
 
     entries: Mapping[str, Entry]
@@ -55,6 +56,7 @@ class Contents:
     numbered: bool = False
     aliases: Mapping[str, str] = field(default_factory=dict)
     together: Callable[[Sequence[str]], Mapping[str, AnyArray]] | None = None
+    remarks: tuple[str, ...] = ()
 
     def load(self, names: Sequence[str]) -> Mapping[str, AnyArray]:
         """The arrays named, each (n,) or (n, m)."""

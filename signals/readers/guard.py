@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -29,12 +29,12 @@ _ROOT = Path(__file__).parents[2]
 _OUT_OF_TIME = (signal.SIGXCPU, signal.SIGALRM, signal.SIGKILL)
 
 
-def load_carefully(path: Path, wanted: Sequence[Want], optional: Collection[str], bounds: Bounds) -> Loaded:
+def load_carefully(path: Path, wanted: Sequence[Want], times: bool, bounds: Bounds) -> Loaded:
     """One's own file: here, or apart where its parser is fragile."""
-    return (load_apart if format_of(path).fragile else load)(path, wanted, optional, bounds)
+    return (load_apart if format_of(path).fragile else load)(path, wanted, times, bounds)
 
 
-def load_apart(path: Path, wanted: Sequence[Want], optional: Collection[str], bounds: Bounds) -> Loaded:
+def load_apart(path: Path, wanted: Sequence[Want], times: bool, bounds: Bounds) -> Loaded:
     """A stranger's file: in a process of its own. Its answer is JSON and raw numbers, nothing that is executed."""
     format_of(path)
     with tempfile.TemporaryDirectory(prefix="sideband-") as folder:
@@ -42,7 +42,7 @@ def load_apart(path: Path, wanted: Sequence[Want], optional: Collection[str], bo
             "path": str(path.absolute()),
             "folder": folder,
             "wanted": [asdict(want) for want in wanted],
-            "optional": sorted(optional),
+            "times": times,
             "bounds": asdict(bounds),
         }
         answer = _ask(path, json.dumps(request), bounds)
@@ -50,8 +50,9 @@ def load_apart(path: Path, wanted: Sequence[Want], optional: Collection[str], bo
             raise SpecError([Problem(**problem) for problem in answer["problems"]])
         return Loaded(
             wanted=tuple(_stored(Path(folder), entry) for entry in answer["wanted"]),
-            optional={name: _stored(Path(folder), entry) for name, entry in answer["optional"].items()},
+            times={name: _stored(Path(folder), entry) for name, entry in answer["times"].items()},
             rate_hz=answer["rate_hz"],
+            remarks=tuple(answer["remarks"]),
         )
 
 

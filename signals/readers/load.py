@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -14,8 +14,12 @@ from signals.readers.damage import damage
 from signals.readers.formats import format_of, reader_of
 from signals.readers.limits import Bounds
 from signals.readers.select import Pick, only_array, pick, take
+from signals.readers.times import times_of
 from signals.series import FloatArray
 from sim.core.errors import Problem, SpecError
+
+MOST_TIMES = 8
+"""Unmentioned columns that are looked at."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,21 +45,25 @@ class Stored:
 
 @dataclass(frozen=True, kw_only=True)
 class Loaded:
-    """What was wanted, in that order, and those of the optional columns that are there and hold numbers."""
+    """What was wanted, in that order, and columns of numbers that nobody mentioned and that may be the time.
+
+    `remarks`: what a person should know of the file.
+    """
 
     wanted: tuple[Stored, ...]
-    optional: Mapping[str, Stored]
+    times: Mapping[str, Stored]
     rate_hz: float | None
+    remarks: tuple[str, ...] = ()
 
 
 class Loader(Protocol):
     """Loads channels of a file, here or in another process."""
 
-    def __call__(self, path: Path, wanted: Sequence[Want], optional: Collection[str], bounds: Bounds) -> Loaded:
-        """SpecError says what is not there or broken."""
+    def __call__(self, path: Path, wanted: Sequence[Want], times: bool, bounds: Bounds) -> Loaded:
+        """`times`: whether to look for columns that are a time besides. SpecError says what is not there or broken."""
 
 
-def load(path: Path, wanted: Sequence[Want], optional: Collection[str], bounds: Bounds) -> Loaded:
+def load(path: Path, wanted: Sequence[Want], times: bool, bounds: Bounds) -> Loaded:
     """Load in this process."""
     format_of(path)
     try:
@@ -68,7 +76,7 @@ def load(path: Path, wanted: Sequence[Want], optional: Collection[str], bounds: 
     reader = reader_of(path)  # a parser takes longer to load than a damaged file to be told
     try:
         with reader(path, bounds) as contents:
-            return _loaded(contents, wanted, optional, bounds)
+            return _loaded(contents, wanted, times, bounds)
     except MemoryError as error:
         message = "cannot be read: it needs more memory than is allowed"
         raise SpecError(Problem(field=path.name, message=message)) from error
@@ -83,10 +91,10 @@ def _check_whole(path: Path) -> None:
         raise refused(path, f"it {wrong}")
 
 
-def _loaded(contents: Contents, wanted: Sequence[Want], optional: Collection[str], bounds: Bounds) -> Loaded:
+def _loaded(contents: Contents, wanted: Sequence[Want], times: bool, bounds: Bounds) -> Loaded:
     picks = _picks(contents, wanted)
     shapes = {c.name: contents.entries[c.name].shape for c in picks}
-    total = sum(math.prod(shape) for shape in shapes.values() if shape is not None)
+    total = sum(_size(shape) for shape in shapes.values())
     bounds.check("channels", message="hold too many samples", given=total, allowed=bounds.values, unit="samples")
     arrays = contents.load(list(shapes))
     found = tuple(
@@ -97,7 +105,12 @@ def _loaded(contents: Contents, wanted: Sequence[Want], optional: Collection[str
         )
         for want, chosen in zip(wanted, picks, strict=True)
     )
-    return Loaded(wanted=found, optional=_optional(contents, optional), rate_hz=contents.rate_hz)
+    looked = _times(contents, frozenset(shapes), bounds.values - total) if times else ({}, ())
+    return Loaded(wanted=found, times=looked[0], rate_hz=contents.rate_hz, remarks=(*contents.remarks, *looked[1]))
+
+
+def _size(shape: tuple[int, ...] | None) -> int:
+    return 0 if shape is None else math.prod(shape)
 
 
 def _picks(contents: Contents, wanted: Sequence[Want]) -> list[Pick]:
@@ -118,10 +131,17 @@ def _picks(contents: Contents, wanted: Sequence[Want]) -> list[Pick]:
     return found
 
 
-def _optional(contents: Contents, names: Collection[str]) -> dict[str, Stored]:
-    found = {}
-    for name in sorted(set(names) & set(contents.entries)):
+def _times(contents: Contents, taken: frozenset[str], room: int) -> tuple[dict[str, Stored], tuple[str, ...]]:
+    """Columns that may be the time, as long as `room` more samples may be read, and what is said of the others."""
+    found: dict[str, Stored] = {}
+    said: list[str] = []
+    for name in times_of(contents, taken)[:MOST_TIMES]:
+        size = _size(contents.entries[name].shape)
+        if size > room:
+            said.append(f"{name}: not looked at, it holds {size} samples, more than there is room for")
+            continue
         with contextlib.suppress(SpecError):  # nobody asked: a column of dates, say, is no matter
             samples = take(contents.load([name])[name], Pick(name=name), name)
             found[name] = Stored(samples=samples, unit=contents.entries[name].unit)
-    return found
+            room -= samples.size
+    return found, tuple(said)

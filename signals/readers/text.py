@@ -28,6 +28,7 @@ from signals.readers.limits import Bounds
 from signals.series import FloatArray
 
 HEAD_BYTES = 2**16
+TAIL_BYTES = 2**12
 _BLOCK_BYTES = 2**22
 RELEASE_TRIES, RELEASE_S = 1000, 0.001
 _COLUMN, _ROW = re.compile(r"In CSV column #(\d+): "), re.compile(r"Row #(\d+): ")
@@ -70,7 +71,25 @@ def open_file(path: Path, bounds: Bounds) -> Iterator[Contents]:
         name: Entry(load=partial(_one, read, name), unit=unit)
         for name, unit in zip(layout.names, layout.units, strict=True)
     }
-    yield Contents(entries=entries, numbered=True, together=read)
+    with told(path):
+        said = _last_row(path, layout)
+    yield Contents(entries=entries, numbered=True, together=read, remarks=said)
+
+
+def _last_row(path: Path, layout: Layout) -> tuple[str, ...]:
+    """A remark where a file ends without a line end, in a number that is shorter than those above it."""
+    if path.suffix.lower() == ".gz":
+        return ()
+    with path.open("rb") as stream:
+        stream.seek(max(0, path.stat().st_size - TAIL_BYTES))
+        tail = stream.read(TAIL_BYTES).decode(layout.encoding, errors="replace")
+    if tail.endswith(("\n", "\r")):
+        return ()
+    delimiter = None if layout.delimiter == BLANKS else layout.delimiter
+    *above, last = (len(line.split(delimiter)[-1].strip()) for line in tail.splitlines()[1:] or [""])
+    if not above or last >= min(above):
+        return ()
+    return ("the file ends without a line end, in a number shorter than those above it: it may be cut short",)
 
 
 def _one(read: Callable[[Sequence[str]], Mapping[str, AnyArray]], name: str) -> AnyArray:

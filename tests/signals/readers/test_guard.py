@@ -45,10 +45,13 @@ def breaking(path: Path) -> Path:
 def test_apart_is_the_same_as_here(tmp_path) -> None:
     np.savez(tmp_path / "r.npz", a=X, time_s=np.arange(500.0), sampling_rate_hz=50.0)
     wanted = [Want(field="f", column="a")]
-    here, apart = (door(tmp_path / "r.npz", wanted, ["time_s"], Bounds()) for door in (load, load_apart))
+    here, apart = (door(tmp_path / "r.npz", wanted, True, Bounds()) for door in (load, load_apart))
     np.testing.assert_array_equal(here.wanted[0].samples, apart.wanted[0].samples)
-    np.testing.assert_array_equal(here.optional["time_s"].samples, apart.optional["time_s"].samples)
+    np.testing.assert_array_equal(here.times["time_s"].samples, apart.times["time_s"].samples)
     assert here.rate_hz == apart.rate_hz == 50.0
+    (tmp_path / "r.csv").write_text("a\n" + "1.25\n" * 20 + "1.")
+    here, apart = (door(tmp_path / "r.csv", wanted, True, Bounds()) for door in (load, load_apart))
+    assert here.remarks == apart.remarks and "cut short" in here.remarks[0]
 
 
 @pytest.mark.slow
@@ -57,7 +60,7 @@ def test_refusals_come_through_word_by_word(tmp_path) -> None:
     told = []
     for door in (load, load_apart):
         with pytest.raises(SpecError) as caught:
-            door(tmp_path / "r.npz", [Want(field="channels.0.column", column="a")], [], Bounds())
+            door(tmp_path / "r.npz", [Want(field="channels.0.column", column="a")], False, Bounds())
         told.append(str(caught.value))
     assert told[0] == told[1]
 

@@ -166,3 +166,15 @@ def test_no_thread_reads_on_when_the_file_is_done(tmp_path: Path, monkeypatch: p
         assert len(columns(path)["a"]) == len(rows)
     assert opened and all(one() is None for one in opened)
     assert len(waits) < text.RELEASE_TRIES
+
+
+@pytest.mark.parametrize(
+    ("ending", "said"),
+    [("1.25,2.25\n", False), ("1.25,2.25", False), ("1.25,2.2", True), ("1.25,2", True), ("1.25,-2.25", False)],
+)
+@pytest.mark.parametrize("delimiter", [",", " "])
+def test_a_last_number_that_is_cut_short_is_remarked_on(tmp_path, ending: str, said: bool, delimiter: str) -> None:
+    path = tmp_path / "r.csv"
+    path.write_text(("a,b\n" + "1.25,2.25\n" * 30 + ending).replace(",", delimiter))
+    with open_text(path, Bounds()) as contents:
+        assert bool(contents.remarks) == said
