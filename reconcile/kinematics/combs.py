@@ -2,6 +2,11 @@
 
 Harmonics fall by a power of their number, sidebands stand at one ratio, lines widen with their order as slip smears
 them; where entry and exit of a spall were told apart every impulse is a pair, and the comb has their interference.
+Impulses whose strength follows a turn have the lines of that turn too (P.D. McFadden and J.D. Smith, Model for the
+vibration produced by a single point defect in a rolling element bearing, J. Sound Vib. 96, 1984, 69-82: the products of
+a part's rate and the load's orders, that of no rate among them); what is uneven from one to the next, in strength or
+pace, spreads over all orders evenly (J. Antoni and R.B. Randall, A stochastic model for simulation and diagnostics of
+rolling element bearings with localized faults, J. Vib. Acoust. 125, 2003, 282-289).
 """
 
 from __future__ import annotations
@@ -17,17 +22,18 @@ from signals.series import FloatArray
 
 SMOOTH = 4
 """Coefficients of the smooth re-scaling."""
-PARAMETERS = 6
-"""Of the comb: log level, fall with harmonic, log sideband ratio, log smear, slip, share of the second impulse."""
+PARAMETERS = 7
+"""Of the comb: log level, fall with harmonic, log sideband ratio, log smear, slip, share of the second impulse, log
+floor: what impacts of uneven strength and pace spread evenly over all orders."""
 MAIN_LOBE = 1.1
 """Standard deviation of an averaged Hann main lobe, bins."""
 NOTHING = 39.0
 """Standard deviations from the middle of a line from which on it is exactly nothing."""
 KEPT = 2 * (PARAMETERS + SMOOTH)
 """Powers a fit keeps: those of a step and of its slopes."""
-LOW = (-30.0, -1.0, -6.0, -4.0, -0.004, 0.0)
-START = (0.0, 1.0, -1.0, -1.5, 0.0, 0.1)
-HIGH = (10.0, 6.0, 0.5, 1.0, 0.004, 0.9)
+LOW = (-30.0, -1.0, -6.0, -4.0, -0.004, 0.0, -30.0)
+START = (0.0, 1.0, -1.0, -1.5, 0.0, 0.1, -10.0)
+HIGH = (10.0, 6.0, 0.5, 1.0, 0.004, 0.9, 10.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,17 +65,19 @@ class Train:
 
 
 def comb_power(train: Train, on: Stretch, parameters: FloatArray) -> FloatArray:
-    """Power (bins,) of the comb's lines."""
-    level, fall, side, smear, slip, second = (float(p) for p in parameters)
+    """Power (bins,) of the comb's lines and of its floor."""
+    level, fall, side, smear, slip, second, floor = (float(p) for p in parameters)
     family, base = train.family, train.order * (1 + slip)
-    total = np.zeros(on.orders.size)
-    for k in range(1, int(on.orders[-1] / base) + 1):
+    total = np.full(on.orders.size, np.exp(floor))
+    for k in range(int(on.orders[-1] / base) + 1):
         width = on.step * np.hypot(MAIN_LOBE, np.exp(smear) * k)
         both = 1 + second**2 + 2 * second * np.cos(2 * np.pi * k * train.pair) if train.pair else 1.0
-        height = both * np.exp(level - fall * np.log(k)) * on.step / width
-        lines = [(k * base, height)]
+        height = both * np.exp(level - fall * np.log(max(k, 1))) * on.step / width
+        lines = [(k * base, height)] if k else []
         for m in range(1, family.sidebands + 1):
-            lines += [(k * base + s * m * family.spacing, height * float(np.exp(side))) for s in (-1, 1)]
+            lines += [
+                (k * base + s * m * family.spacing, height * float(np.exp(side))) for s in ((-1, 1) if k else (1,))
+            ]
         for place, power in lines:
             first, last = np.searchsorted(on.orders, (place - NOTHING * width, place + NOTHING * width))
             total[first:last] += power * np.exp(-0.5 * ((on.orders[first:last] - place) / width) ** 2)
@@ -93,7 +101,7 @@ def fitted(train: Train, fit: Stretch, before: FloatArray) -> FloatArray:
     smooth = rescaled(fit, before)[1]
     smooth[0] -= 1.0
     start = np.concatenate((START, smooth))
-    start[0] = float(np.max(fit.log_power))
+    start[0], start[PARAMETERS - 1] = float(np.max(fit.log_power)), float(np.percentile(fit.log_power, 10))
     low = np.concatenate((LOW, np.full(SMOOTH, -20.0)))
     high = np.concatenate((HIGH, np.full(SMOOTH, 20.0)))
 
@@ -114,15 +122,3 @@ def rescaled(fit: Stretch, before: FloatArray) -> tuple[FloatArray, FloatArray]:
     columns = fit.basis
     smooth = np.asarray(np.linalg.lstsq(columns, fit.log_power - before, rcond=None)[0], dtype=np.float64)
     return np.asarray(before + columns @ smooth, dtype=np.float64), smooth
-
-
-def black_box(fit: Stretch, retuned: FloatArray) -> FloatArray:
-    """Log power (bins,) with free lines in place of the comb: the three strongest, place and height of each."""
-    values = retuned.copy()
-    residual = fit.log_power - retuned
-    for _ in range(PARAMETERS // 2):
-        peak = int(np.argmax(residual))
-        lobe = np.exp(-0.5 * ((np.arange(values.size) - peak) / MAIN_LOBE) ** 2)
-        values = np.logaddexp(values, fit.log_power[peak] + np.log(lobe + 1e-30))
-        residual[max(0, peak - 2) : peak + 3] = -np.inf
-    return np.asarray(values, dtype=np.float64)

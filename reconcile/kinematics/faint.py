@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from reconcile.kinematics.answer import TERMS, lines_of
@@ -59,7 +60,6 @@ def shallow_report(
 ) -> Report:
     """Bearing lines rose, but stay shallower than a defect of that race makes them: the set is the answer."""
     sites = list(dict.fromkeys(c.family.site for c in risen))
-    cage = {c.family.site: c for c in every if c.family.kind == "cage"}
     causes = [
         Cause(
             term=TERMS[c.family.kind],
@@ -70,14 +70,8 @@ def shallow_report(
         )
         for c in risen
     ]
-    for site in sites:
-        if not any(c.term == "ball_spall" and c.site == site for c in causes):
-            modulated = site in cage and cage[site].risen and cage[site].deep
-            top = max(c.score for c in causes if c.site == site)
-            reason = "impacts come and go with the cage" if modulated else "a damaged ball strikes both races"
-            causes.append(
-                Cause(term="ball_spall", site=site, score=top * (1.2 if modulated else 0.8), reasons=(reason,))
-            )
+    own = {c.site for c in causes if c.term == "ball_spall"}
+    causes += [_ball(site, risen, every) for site in sites if site not in own]
     causes.sort(key=lambda c: -c.score)
     keys = ", ".join(f"{c.family.key} ({c.growth_db or 0:+.0f} dB)" for c in risen)
     louder = loudest(tests, baselines)
@@ -90,8 +84,7 @@ def shallow_report(
     return Report(
         verdict="ambiguous",
         sentence=f"Bearing lines rose over the baseline, {keys}, but stay shallow (depth "
-        f"{max(c.best.depth for c in risen):.2f}): {which}; most likely "
-        f"{causes[0].term.replace('_', ' ')} of {causes[0].site}.",
+        f"{max(c.best.depth for c in risen):.2f}): {which}.",
         level="kinematics",
         where=Where(
             sites=tuple(PlaceWeight(site=s, weight=sum(c.score for c in causes if c.site == s) / total) for s in sites),
@@ -101,3 +94,18 @@ def shallow_report(
         undecidable=("which part of the bearing: shallow lines of several are alike", "how large: " + NO_SIZE),
         next_experiment=NextExperiment(sentence=advice),
     )
+
+
+def _ball(site: str, risen: Sequence[Candidate], every: Sequence[Candidate]) -> Cause:
+    """A damaged ball of a bearing whose races' lines rose, by what of it was heard: both races together where both
+    rose, which it strikes alike; the cage's order where impacts come and go with it; else its own lines alone."""
+    here = {c.family.kind: c for c in every if c.family.site == site}
+    races = [c.z for c in risen if c.family.site == site]
+    cage = here.get("cage")
+    heard = {"its own lines did not rise": here["ball"].z if "ball" in here else 0.0}
+    if len(races) > 1:
+        heard["lines of both races rose, which a damaged ball strikes both"] = math.hypot(*races)
+    if cage is not None and cage.risen and cage.deep:
+        heard["impacts come and go with the cage"] = cage.z
+    reason, score = max(heard.items(), key=lambda one: one[1])
+    return Cause(term="ball_spall", site=site, score=score, reasons=(reason,))

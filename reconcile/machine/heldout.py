@@ -76,13 +76,25 @@ def feature_channels(layout: Layout, points: int, channels: int) -> np.ndarray:
     return np.tile(np.repeat(np.arange(channels), layout.size), points)
 
 
-def _distance(change: FloatArray, predicted: FloatArray, split: Split) -> FloatArray:
-    part = split.score & np.isfinite(change) & np.isfinite(predicted)
-    return np.asarray((change - predicted)[part])
+def _distances(predicted: Sequence[FloatArray], ways: Sequence[Split]) -> tuple[list[FloatArray], list[FloatArray]]:
+    """Of each held-out part the distance to no change and to what is predicted, over the features of which both are
+    known: what a forecast says nothing of counts neither before nor after."""
+    before, after = [], []
+    for guess, way in zip(predicted, ways, strict=True):
+        part = way.score & np.isfinite(way.scored) & np.isfinite(guess)
+        before.append(np.asarray(way.scored[part]))
+        after.append(np.asarray((way.scored - guess)[part]))
+    return before, after
 
 
 def _gain(before: FloatArray, after: FloatArray) -> float:
     return 1.0 - float(np.sqrt(np.mean(after**2)) / max(float(np.sqrt(np.mean(before**2))), 1e-12))
+
+
+def _gain_of(predicted: Sequence[FloatArray], ways: Sequence[Split]) -> float | None:
+    """None where nothing is predicted of what is scored."""
+    before, after = (np.concatenate(parts) for parts in _distances(predicted, ways))
+    return _gain(before, after) if before.size else None
 
 
 def held_out(
@@ -108,18 +120,15 @@ def held_out(
     ways, how = splits(changes, spectral)
     named = known if beside is None else with_drawn(known, name, drawn)
     named = with_sums(changes, known, name, beside) if beside is not None and drawn is None else named
-    before = [_distance(w.scored, np.zeros(changes.observed.size), w) for w in ways]
-    after, used = _told(named, named.library.groups[name], ways, spectral, sigma)
+    told, used = _told(named, named.library.groups[name], ways, spectral, sigma)
+    before, after = _distances(told, ways)
     count = max(_parameters(name) + (0 if beside is None else _parameters(beside)), round(used))
     fits = [levels(w, spectral) for w in ways]
-    tuned = [_distance(w.scored, retuned(changes.null, f, sigma), w) for w, f in zip(ways, fits, strict=True)]
-    boxes = []
-    for dealt in (None, channel):
-        made = [black_box(f, frequency, count, sigma, dealt) for f in fits]
-        boxes.append(np.concatenate([_distance(w.scored, m, w) for w, m in zip(ways, made, strict=True)]))
+    tuned = _gain_of([retuned(changes.null, f, sigma) for f in fits], ways)
+    boxes = [_gain_of([black_box(f, frequency, count, sigma, dealt) for f in fits], ways) for dealt in (None, channel)]
     first = np.concatenate(before)
     low, high = _interval(before, after, np.random.default_rng([seed, 5]))
-    placebos = _placebos(changes, known, name, beside, ways, spectral, sigma, before)
+    placebos = _placebos(changes, known, name, beside, ways, spectral, sigma)
     full = [p.gain for p in placebos if p.draws >= MANY] or [p.gain for p in placebos]
     return HeldOut(
         metric="log_spectral_distance",
@@ -129,8 +138,8 @@ def held_out(
         gain=_gain(first, np.concatenate(after)),
         gain_low=low,
         gain_high=high,
-        retuned=_gain(first, np.concatenate(tuned)),
-        black_box=max(_gain(first, box) for box in boxes),
+        retuned=tuned,
+        black_box=max((box for box in boxes if box is not None), default=None),
         placebo=float(np.median(full)) if full else None,
         held=how,
         ceiling=_ceiling(first, ways, np.sqrt(noise + drift)),
@@ -168,10 +177,9 @@ def _parameters(name: str) -> int:
 def _told(
     known: Catalogued, rows: Sequence[int], ways: Sequence[Split], spectral: np.ndarray, sigma: FloatArray
 ) -> tuple[list[FloatArray], float]:
-    """What an effect's forecasts leave of each held-out part, and the numbers they have used on average."""
+    """What an effect forecasts of each held-out part, and the numbers it has used on average."""
     made = [forecast(known.library.changes, rows, levels(w, spectral), sigma) for w in ways]
-    left = [_distance(w.scored, guess, w) for w, (guess, _) in zip(ways, made, strict=True)]
-    return left, float(np.mean([used for _, used in made]))
+    return [guess for guess, _ in made], float(np.mean([used for _, used in made]))
 
 
 def _placebos(
@@ -182,7 +190,6 @@ def _placebos(
     ways: Sequence[Split],
     spectral: np.ndarray,
     sigma: FloatArray,
-    before: Sequence[FloatArray],
 ) -> tuple[Placebo, ...]:
     """The right law at wrong places and wrong laws at the right place, the best first; of two effects, for the second,
     beside the first."""
@@ -194,9 +201,9 @@ def _placebos(
             continue
         summed = known if beside is None else with_sums(changes, known, name, other)
         drawn = rows if beside is None else summed.library.groups[name]
-        left = np.concatenate(_told(summed, drawn, ways, spectral, sigma)[0])
-        if left.size == sum(b.size for b in before):
-            found.append(Placebo(term=law, site=place, gain=_gain(np.concatenate(before), left), draws=len(rows)))
+        gain = _gain_of(_told(summed, drawn, ways, spectral, sigma)[0], ways)
+        if gain is not None:
+            found.append(Placebo(term=law, site=place, gain=gain, draws=len(rows)))
     return tuple(sorted(found, key=lambda p: -p.gain))
 
 
@@ -207,7 +214,6 @@ def _interval(
     blocks = [
         (b, a)
         for one, other in zip(before, after, strict=True)
-        if one.size == other.size
         for b, a in zip(np.array_split(one, BLOCKS), np.array_split(other, BLOCKS), strict=True)
         if b.size
     ]

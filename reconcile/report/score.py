@@ -14,8 +14,8 @@ DEVIATIONS, DECIBELS = "deviations", "dB"
 LOG_EVIDENCE, LOG_GROWTH = "log evidence", "log growth"
 BY_UNIT = {
     DEVIATIONS: "Score: by how many robust deviations what was heard stands above what orders of no part, or the "
-    "baseline, show; shared out where several places have the same lines. A name needs 5 or more. It ranks the "
-    "candidates and is no probability.",
+    "baseline, show; shared out where several places have the same lines; that of a damaged ball is of what its reason "
+    "says. A name needs 5 or more. It ranks the candidates and is no probability.",
     DECIBELS: "Score: by how many decibels the lines grew over the baseline. It ranks the candidates and is no "
     "probability.",
     LOG_EVIDENCE: "Score: how rare such a burst at one place of the turn is on gears with sound teeth, as a logarithm; "

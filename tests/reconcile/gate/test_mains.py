@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reconcile.gate.mains import hum_lines
+from reconcile.gate.mains import hum_findings, hum_lines
 from signals.recording import Recording
 from tests.strategies.impulses import RATE_HZ, N, recorded
 
@@ -34,3 +34,16 @@ def test_even_turns_of_a_motor_are_none(shaft: float) -> None:
 def test_true_hum_beside_such_turns_stays() -> None:
     found = [hz for hz, _ in hum_lines(lines(120.0, 240.0, 360.0, 6 * 29.91), "a0", NOTHING)]
     assert found == pytest.approx([120.0, 240.0, 360.0], abs=0.3)
+
+
+@pytest.mark.parametrize(("grown_db", "fault"), [(4.0, False), (5.0, False), (7.0, True), (12.0, True)])
+def test_hum_is_a_fault_from_a_doubled_level_on(grown_db: float, fault: bool) -> None:
+    """Hum that was there before wanders by a few dB with the load of the supply."""
+    t = np.arange(N) / RATE_HZ
+    base, test = (
+        recorded(0.1 * np.random.default_rng(seed).standard_normal(N) + height * np.cos(2 * np.pi * 50.0 * t))
+        for seed, height in ((1, 1.0), (2, 10 ** (grown_db / 20)))
+    )
+    (found,) = hum_findings(test, "test 1", NOTHING, [base])
+    assert found.fault is fault
+    assert f"{grown_db:+.0f} dB against the baseline" in found.detail

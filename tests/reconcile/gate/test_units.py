@@ -185,3 +185,13 @@ def test_no_edge_at_a_ratio_is_no_unit(seed: int) -> None:
     assert edge_unit_gain([d + np.array([0.0, 19.83])[:, None, None] for d in one], ACCELERATIONS[:2]) is None
     exchanged = [-d for d in pitted(0.0, seed=seed)]  # the baseline has the pit: no edge below
     assert edge_unit_gain(exchanged, ACCELERATIONS[:2]) is None
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+@pytest.mark.parametrize(("ratio", "within_db"), [(1000.0, 0.8), (25.4, 0.8), (9.80665, 1.8)])
+def test_a_gain_is_a_unit_within_what_channels_keep(ratio: float, within_db: float, sign: float) -> None:
+    """Gains of sound channels repeat to a fraction of a dB; g against m/s^2, the likeliest slip, may drift besides."""
+    for off, told in ((0.0, True), (within_db - 0.1, True), (within_db + 0.1, False)):
+        for side in (-1.0, 1.0):
+            gain_db = sign * (20 * np.log10(ratio) + side * off)
+            assert (unit_of(gain_db) is not None) is told, (ratio, off, side)

@@ -131,13 +131,14 @@ def test_a_comb_is_fitted_back() -> None:
     orders = np.arange(0.3, 25.0, 0.05)
     on = Stretch(log_power=np.zeros(orders.size), orders=orders)
     outer = Train(family=TIES.families[0], order=3.58, pair=0.15)
-    truth = np.array([-2.0, 1.5, -1.0, -2.0, 0.001, 0.6])
-    before = np.full(orders.size, -8.0)
+    truth = np.array([-2.0, 1.5, -1.0, -2.0, 0.001, 0.6, -7.0])
+    before = -9.0 + 2.0 * np.cos(2.1 * orders)
     rng = np.random.default_rng(5)
     power = np.exp(before) + comb_power(outer, on, truth)
     fit = Stretch(log_power=np.log(power * rng.gamma(20, 1 / 20, orders.size)), orders=orders)
     p = fitted(outer, fit, before)
     assert p[0] == pytest.approx(-2.0, abs=0.4) and p[5] == pytest.approx(0.6, abs=0.1)
+    assert p[6] == pytest.approx(-7.0, abs=0.5)
     assert np.sqrt(np.mean((predicted(outer, fit, before, p) - np.log(power)) ** 2)) < 0.15
 
 

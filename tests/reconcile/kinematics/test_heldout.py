@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from reconcile.kinematics import read_kinematic_spec
+from reconcile.kinematics.combs import Stretch
 from reconcile.kinematics.families import ties
-from reconcile.kinematics.heldout import best_fit, held_out
+from reconcile.kinematics.heldout import best_fit, gain_interval, held_out
 from reconcile.kinematics.observe import Observation, observe
 from reconcile.kinematics.parted import LEAST_TURNS, parted, turns_of
 from reconcile.verdict import HeldOut
@@ -102,3 +103,16 @@ def test_pulses_of_a_half_are_its_own() -> None:
     assert early is not None and late is not None
     assert early.pulse_times_s[-1] < N / RATE_HZ / 2 <= late.pulse_times_s[0]
     assert early.pulse_times_s.size + late.pulse_times_s.size == times.size
+
+
+def test_the_interval_of_a_gain_is_the_ninety_percent_one() -> None:
+    """Against the closed form: the mean of many independent blocks is normal."""
+    rng, blocks, width = np.random.default_rng(5), 400, 10
+    fit = Stretch(log_power=np.zeros(blocks * width), orders=np.arange(1, blocks * width + 1) / width)
+    squares = np.repeat(rng.uniform(0.1, 0.5, blocks), width)
+    before, after = np.ones((1, squares.size)), np.sqrt(squares)[None]
+    low, high = gain_interval(before, after, fit, rng)
+    mean, error = float(np.mean(squares)), float(np.std(squares)) / np.sqrt(blocks)
+    expected = [1 - np.sqrt(mean + 1.645 * error), 1 - np.sqrt(mean - 1.645 * error)]
+    assert high - low == pytest.approx(expected[1] - expected[0], rel=0.15)
+    assert (low + high) / 2 == pytest.approx(1 - np.sqrt(mean), abs=0.2 * error)

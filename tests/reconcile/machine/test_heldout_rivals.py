@@ -8,8 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reconcile.machine.heldout import _interval, held_out
+from reconcile.machine.heldout import _distances, _gain_of, _interval, held_out
 from reconcile.machine.library import Catalogued
+from reconcile.machine.rivals import Split
 from reconcile.verdict import HeldOut
 from sim.terms import REGISTRY
 from tests.reconcile.machine.test_severity_heldout import NAME, WRONG, data, spectral
@@ -33,6 +34,17 @@ def test_an_interval_of_the_gain_leaves_out_a_twentieth_at_either_end() -> None:
 
 def told(made: SimpleNamespace, known: Catalogued, frequency: np.ndarray, channel: np.ndarray | None) -> HeldOut:
     return held_out(made, known, NAME, spectral=spectral(3), frequency=frequency, channel=channel, seed=0)  # type: ignore[arg-type]
+
+
+def test_what_a_forecast_says_nothing_of_counts_neither_before_nor_after() -> None:
+    """Half of the features move by 20 dB and are not forecast, the others by 2 of which half is: that is the gain."""
+    scored = np.repeat([20.0, 2.0], 50)
+    way = Split(fit=np.isfinite(scored), score=np.isfinite(scored), fitted=scored, scored=scored)
+    guess = np.where(scored > 10.0, np.nan, 1.0)
+    (before,), (after,) = _distances([guess], [way])
+    assert before.size == after.size == 50 and set(before) == {2.0} and set(after) == {1.0}
+    assert _gain_of([guess], [way]) == pytest.approx(0.5)
+    assert _gain_of([np.full(scored.size, np.nan)], [way]) is None
 
 
 def test_the_black_box_is_the_better_of_one_curve_and_one_for_each_sensor() -> None:

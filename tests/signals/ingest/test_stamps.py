@@ -155,3 +155,12 @@ def test_stamps_that_contradict_a_rate_can_be_stated_with_their_unit(read, tmp_p
 )
 def test_counters_and_rounded_stamps_agree_with_a_rate(read, tmp_path, times: np.ndarray) -> None:
     assert read(with_time(tmp_path, "t", times), sampling_rate_hz=25600.0).recording.sampling_rate_hz == 25600.0
+
+
+@pytest.mark.parametrize(("off", "refused"), [(0.004, False), (0.008, False), (0.013, True), (0.05, True)])
+def test_a_rate_is_held_to_stamps_within_what_clocks_drift(read, tmp_path, off: float, refused: bool) -> None:
+    path = with_time(tmp_path, "t", np.arange(N) / 25600.0 * (1 + off))
+    if refused:
+        assert "'t'" in refusal(read, path, sampling_rate_hz=25600.0)
+    else:
+        assert read(path, sampling_rate_hz=25600.0).recording.sampling_rate_hz == 25600.0
