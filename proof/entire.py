@@ -102,6 +102,8 @@ CHANDLER = Design(split="chandler", groups=WIDE.groups, turned=1637, rows=HELD.r
 """As baker, of the rarer laws and most of the pairs that it leaves out."""
 DYER = Design(split="dyer", groups=WIDE.groups, turned=1741, rows=HELD.rows, begun=96, initials="dy")
 """As chandler, of the rarer laws and most of the pairs that it leaves out."""
+ENGRAVER = Design(split="engraver", groups=WIDE.groups, turned=1847, rows=HELD.rows, begun=104, initials="eg")
+"""As dyer, of the rarer laws and most of the pairs that it leaves out."""
 ALL_PAIRS = tuple(dict.fromkeys((*SHOWN_PAIRS, *PAIRS, *PITTED_PAIRS)))
 STRUCK = ("outer_pit", "inner_pit", "ball_pit")
 FORMS = 3
@@ -182,6 +184,11 @@ def chandler() -> tuple[Case, ...]:
 def dyer() -> tuple[Case, ...]:
     """All cases of the fifteenth."""
     return cases_of_design(DYER)
+
+
+def engraver() -> tuple[Case, ...]:
+    """All cases of the sixteenth."""
+    return cases_of_design(ENGRAVER)
 
 
 def cases_of_design(design: Design) -> tuple[Case, ...]:

@@ -13,6 +13,7 @@ from proof.entire import (
     BAKER,
     CHANDLER,
     DYER,
+    ENGRAVER,
     ENTIRE,
     HELD,
     INQUEST,
@@ -44,7 +45,8 @@ FAR_OFF = 0.74
 CLEAR = 3.0
 """Times as far as drift, from which there is much to see."""
 DESIGNS = (
-    DYER, CHANDLER, BAKER, TWELFTH, XENIAL, ZENITH, INQUEST, JURY, SEVENTH, VAST, YOUNG, MIXED, WIDE, HELD, ENTIRE,
+    ENGRAVER, DYER, CHANDLER, BAKER, TWELFTH, XENIAL, ZENITH, INQUEST, JURY, SEVENTH, VAST, YOUNG, MIXED, WIDE, HELD,
+    ENTIRE,
 )  # fmt: skip
 """The splits, the latest first."""
 
@@ -154,17 +156,18 @@ def _again(run: Run) -> list[str]:
 
 
 TITLES = {
-    "dyer": "The latest plan",
-    "chandler": "The plan before",
-    "baker": "The one before that",
-    "twelfth": "An older one",
-    "xenial": "One older than that",
-    "zenith": "One before those",
-    "inquest": "An older plan",
-    "jury": "One before that plan",
-    "clear": "A yet older plan",
-    "vast": "Before that one",
-    "young": "One more before",
+    "engraver": "The latest plan",
+    "dyer": "The plan before",
+    "chandler": "The one before that",
+    "baker": "An older one",
+    "twelfth": "One older than that",
+    "xenial": "One before those",
+    "zenith": "An older plan",
+    "inquest": "One before that plan",
+    "jury": "A yet older plan",
+    "clear": "Before that one",
+    "vast": "One more before",
+    "young": "One further back",
     "mixed": "Another before",
     "wide": "A plan before",
     "held": "An engine before",
@@ -172,6 +175,7 @@ TITLES = {
 }
 NOT_YET = "The others are not run yet: the names' order is drawn, so those run are a sample of the plan. "
 LEFT = {
+    "engraver": NOT_YET,
     "dyer": NOT_YET,
     "chandler": NOT_YET,
     "baker": NOT_YET,

@@ -15,6 +15,7 @@ from proof.entire import (
     chandler,
     clear,
     dyer,
+    engraver,
     entire,
     held,
     inquest,
@@ -60,6 +61,7 @@ MADE: Mapping[str, Callable[[], tuple[Case, ...]]] = {
     "others": others, "kinds": kinds, "entire": entire, "teeth": teeth, "held": held, "wide": wide, "mixed": mixed,
     "young": young, "vast": vast, "clear": clear, "jury": jury, "inquest": inquest, "zenith": zenith,
     "xenial": xenial, "twelfth": twelfth, "baker": baker, "chandler": chandler, "dyer": dyer,
+    "engraver": engraver,
 }  # fmt: skip
 
 

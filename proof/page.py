@@ -43,6 +43,7 @@ TITLES = {
 
 
 PARTS: tuple[tuple[Split, str], ...] = (
+    ("engraver", "engraver"),
     ("dyer", "dyer"),
     ("chandler", "chandler"), ("baker", "baker"), ("twelfth", "twelfth"), ("xenial", "xenial"), ("zenith", "zenith"),
     ("zenith", "after"),

@@ -23,7 +23,7 @@ from proof.unknown import OPEN
 Split = Literal[
     "dev", "sealed", "later", "third", "fourth", "quiet", "unmet", "next", "others", "rotors", "rotors-later",
     "kinds", "beside", "pitted", "anew", "entire", "teeth", "held", "wide", "mixed", "young", "vast", "clear",
-    "jury", "inquest", "zenith", "xenial", "twelfth", "baker", "chandler", "dyer",
+    "jury", "inquest", "zenith", "xenial", "twelfth", "baker", "chandler", "dyer", "engraver",
 ]  # fmt: skip
 Group = Literal["null", "misset", "sensor", "single", "double", "open", "no_baseline", "ambiguous"]
 SEEDS = {
@@ -58,6 +58,7 @@ SEEDS = {
     "baker": 8_310_659_427,
     "chandler": 7_600_884_850,
     "dyer": 8_112_450_613,
+    "engraver": 9_274_018_356,
 }
 COUNTS = {
     "dev": {

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 SECTIONS = {
+    "engraver": "No version of the engine had met these before their run. Two ran at once. A second effect that would "
+    "strike and does not repeat from speed to speed beside a play is searched with the sizes of both "
+    "([decision](decisions/reconcile-second-rules.md)); these cases had no part in it.",
     "dyer": "No version of the engine had met these before their run. Two ran at once. Pits whose edges are both heard "
     "are sized by the angle between a ball's strikes ([decision](decisions/reconcile-strikes.md)), and a sure driving "
     "effect that leaves too much is asked for what it makes rattle ([decision](decisions/reconcile-interplay.md)); "

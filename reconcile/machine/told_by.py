@@ -66,3 +66,9 @@ def repeats(setting: Setting, first: str, second: str, parts: Sequence[float], l
     if others < SHARED * whole and whole < ALONE * least:
         return False
     return -others < (0.0 if has_play(first) else LOST_ELSEWHERE) * whole
+
+
+def counted(setting: Setting, first: str, second: str, gain: float, parts: Sequence[float], least: float) -> float:
+    """What a second effect adds, `gain`; less than the `least` where it would strike and does not repeat."""
+    again = not strikes(second) or repeats(setting, first, second, parts, least)
+    return gain if again else min(gain, float(np.nextafter(least, 0.0)))

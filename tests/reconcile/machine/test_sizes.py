@@ -194,6 +194,24 @@ def test_only_what_sums_promise_and_simulation_refuses_is_searched(
     assert all(p.beside.together.searched for p in told.values() if p.beside.together)
 
 
+@pytest.mark.parametrize(
+    ("second", "parts", "looked"),
+    [
+        ("outer_spall@x", (75.0, 69.0, -70.0), True),  # dy040 of the proof: a pit beside a loose ring
+        ("outer_spall@x", (25.0, 39.0, 10.0), False),
+        ("unbalance@x", (75.0, 69.0, -70.0), False),  # no law has how a ring alone rattles at one speed
+    ],
+)
+def test_what_would_strike_and_does_not_repeat_is_searched_as_what_adds_too_little(
+    second: str, parts: tuple[float, ...], looked: bool, sought: list[tuple[int, ...]]
+) -> None:
+    made = {second: replace(pair(sum(parts)), parts=parts)}
+    setting = SimpleNamespace(direct=SimpleNamespace(evidence={}))
+    beside_ring = asked(setting=setting, first="fit_clearance@bearing3")
+    assert _searched(beside_ring, made, [(second, 43.0, (0, 1))]) == {}  # type: ignore[arg-type]
+    assert sought == ([(0, 1)] if looked else [])
+
+
 def test_the_first_is_as_large_as_it_is_beside_the_second() -> None:
     alone = Severity(name="moment", value=ALONE, unit="kg*m", low=0.5 * ALONE, high=2.0 * ALONE)
     assert BOTH.own is not None
