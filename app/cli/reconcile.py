@@ -145,8 +145,8 @@ def _machine_named(path: Path) -> Iterator[None]:
 
 STEP = 0.05
 """Share of the whole after which a stage that lasts is told again."""
-LEAST_DONE, LEAST_SPENT_S = 0.01, 5.0
-"""Progress and seconds from which there is a pace."""
+LEAST_DONE, LEAST_SPENT_S = 0.03, 5.0
+"""Progress and seconds from which there is a pace: the first machines of an atlas are the slowest."""
 
 
 @dataclass

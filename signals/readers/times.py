@@ -74,5 +74,6 @@ def times_of(contents: Contents, taken: frozenset[str]) -> list[str]:
     named = [name for name in free if named_time(name) is not None]
     by_unit = [name for name in free if name not in named and of_time(contents.entries[name].unit)]
     first = next(iter(contents.entries), None)
-    leading = [first] if contents.numbered and first in free and first not in {*named, *by_unit} else []
+    table = contents.numbered and contents.together is not None  # columns of text, no sound file
+    leading = [first] if table and first in free and first not in {*named, *by_unit} else []
     return [*sorted(named), *by_unit, *leading]

@@ -7,6 +7,7 @@ import zipfile
 
 import numpy as np
 import pytest
+import scipy.io.wavfile
 
 from signals.readers.limits import Bounds
 from signals.readers.load import MOST_TIMES, Want, load
@@ -65,6 +66,8 @@ def test_a_tables_first_column_is_looked_at_whatever_its_name(tmp_path) -> None:
     assert not load(tmp_path / "r.csv", WANTED, False, Bounds()).times
     np.savez(tmp_path / "r.npz", moment=np.arange(N), a=np.arange(N))
     assert not load(tmp_path / "r.npz", WANTED, True, Bounds()).times
+    scipy.io.wavfile.write(tmp_path / "r.wav", 1000, np.column_stack((np.arange(N), np.arange(N))).astype(np.int16))
+    assert not load(tmp_path / "r.wav", [Want(field="channels.0.column", column=1)], True, Bounds()).times
 
 
 def test_unmentioned_columns_keep_within_the_bound_of_samples(tmp_path) -> None:
