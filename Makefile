@@ -100,8 +100,8 @@ paper: dev setup  ## the paper's figures and trends, recomputed into docs/
 BUDGET ?= quick
 # Names of cases tell their split; without them it is all of one. Stored answers are compared, and replaced by nothing:
 # KEEP=name stores a run under a section's name of its own.
-CASES_OF = $(if $(SPLIT)$(if $(CASES),,all),--split $(or $(SPLIT),dyer)) --cases "$(CASES)"
-proof: dev setup  ## concealed cases: make them, run the engine, hold its answers against the stored ones (CASES=s001,s002 single ones, SPLIT=dyer)
+CASES_OF = $(if $(SPLIT)$(if $(CASES),,all),--split $(or $(SPLIT),engraver)) --cases "$(CASES)"
+proof: dev setup  ## concealed cases: make them, run the engine, hold its answers against the stored ones (CASES=s001,s002 single ones, SPLIT=engraver)
 	$(BIN)/python -m proof generate $(CASES_OF)
 	$(BIN)/python -m proof run $(CASES_OF) --budget $(BUDGET) $(if $(CASES),--fresh)
 	$(BIN)/python -m proof score $(CASES_OF) $(if $(KEEP),--keep --name $(KEEP)) > /dev/null

@@ -66,7 +66,7 @@ def test_the_command_finds_the_split(monkeypatch: pytest.MonkeyPatch) -> None:
     ("asked", "told"),
     [
         (("CASES=s001,s002",), '--cases "s001,s002"'),
-        (("CASES=", "SPLIT="), '--split dyer --cases ""'),
+        (("CASES=", "SPLIT="), '--split engraver --cases ""'),
         (("SPLIT=mixed", "CASES="), '--split mixed --cases ""'),
         (("SPLIT=mixed", "CASES=m001"), '--split mixed --cases "m001"'),
     ],
