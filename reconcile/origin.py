@@ -15,7 +15,7 @@ def _installed() -> str:
 
 
 PACKAGE_VERSION = _installed()
-METHOD_VERSION = "reconciliation-38"
+METHOD_VERSION = "reconciliation-39"
 """Of what answers are made with, beside the physics: raised when an answer would be another."""
 
 

@@ -66,7 +66,7 @@ from reconcile.machine.second import second_effect, strikes
 from reconcile.machine.setting import Found, Setting
 from reconcile.machine.short import with_short
 from reconcile.machine.strange import explained_by, strange, with_strange
-from reconcile.machine.suspected import of_the_sensor, without_suspected
+from reconcile.machine.suspected import of_a_sound_machine, of_the_sensor, without_suspected
 from reconcile.machine.teeth_elsewhere import teeth_elsewhere
 from reconcile.machine.told_by import teeth_tell
 from reconcile.machine.turned import as_baselines_turned, told_apart, turned_alike, with_limits, with_unconfirmed
@@ -117,7 +117,7 @@ def reconcile_machine(
     plan = atlas_plan(paired, uncertain_numbers(paired), chosen, seed=seed)
     asked = _Asked(machine=machine, plan=plan, budget=budget, keeper=keeper or Forgetful(), meter=meter, seed=seed)
     gate = as_baselines_turned(machine, without_spoiled(gate), seed)
-    report = _reconciled(asked, gate, progress)
+    report = of_a_sound_machine(_reconciled(asked, gate, progress), gate)
     fewer = without_suspected(report, gate)
     if fewer is not None:
         report = of_the_sensor(report, _reconciled(asked, fewer, _silent), fewer)

@@ -9,7 +9,7 @@ import pytest
 
 from reconcile.faults import measurement_faults, with_faults
 from reconcile.gate.findings import Finding, Gate, Kind
-from reconcile.machine.suspected import of_the_sensor, without_suspected
+from reconcile.machine.suspected import of_a_sound_machine, of_the_sensor, without_suspected
 from reconcile.report.sections import head
 from reconcile.verdict import Report, SensorFault, Word
 from signals.recording import Recording
@@ -69,3 +69,42 @@ def test_the_sensor_is_the_answer_only_where_the_others_have_nothing() -> None:
     assert "may be in the measurement: a sensor that looks loose on a, or damage near it" in report.sentence
     assert "other channels alone" in report.sentence
     assert of_the_sensor(before, said("unknown_physics"), gate) is before
+
+
+@pytest.mark.parametrize(
+    ("verdict", "kind", "sure", "told"),
+    [
+        ("nothing_missing", "loose_sensor", True, True),
+        ("nothing_missing", "loose_sensor", False, False),
+        ("nothing_missing", "mains_hum", True, False),  # the gate's own answer, or left out
+        ("not_decidable", "loose_sensor", True, False),
+        ("explained", "loose_sensor", True, False),
+    ],
+)
+def test_where_nothing_else_is_missing_the_loose_sensor_is_the_answer(
+    verdict: Word, kind: Kind, sure: bool, told: bool
+) -> None:
+    gate, before = suspecting(kind), said(verdict)
+    gate = replace(gate, findings=(replace(gate.findings[0], fault=sure, transfer_db=((2e3, 12.0),)),))
+    report = of_a_sound_machine(before, gate)
+    assert (report is not before) is told
+    if told:
+        assert report.verdict == "measurement_fault" and report.fault is not None and report.fault.doubtful
+        assert report.fault.channel == "a" and "a sensor that looks loose on a, or damage near it" in report.sentence
+        assert report.sentence.endswith("Nothing else is missing.")
+        (listed,) = with_faults(report, measurement_faults(gate)).measurement_faults
+        assert listed.doubtful
+
+
+@pytest.mark.parametrize(
+    ("points", "size_db", "told"),
+    [(1, 7.5, False), (1, -9.9, False), (1, -11.0, True), (2, 7.5, False), (3, 7.5, True)],
+)
+def test_at_few_operating_points_only_a_large_change_of_transfer_counts(
+    points: int, size_db: float, told: bool
+) -> None:
+    gate = suspecting("loose_sensor")
+    found = replace(gate.findings[0], transfer_db=((1e3, 1.0), (2e3, size_db)))
+    several = replace(gate, findings=(found,), tests=gate.tests * points)
+    before = said("nothing_missing")
+    assert (of_a_sound_machine(before, several) is not before) is told
