@@ -153,7 +153,7 @@ def unmentioned(raw: FloatArray, name: str, unit: str, rate_hz: float | None) ->
 
 
 def _rises(raw: FloatArray) -> bool:
-    return raw.size > 1 and bool(np.all(np.diff(raw) >= 0) and raw[-1] > raw[0])
+    return raw.size > 1 and bool(np.all(raw[1:] >= raw[:-1]) and raw[-1] > raw[0])
 
 
 def _regular(raw: FloatArray) -> bool:

@@ -97,6 +97,14 @@ def test_a_first_column_that_rises_unevenly_is_told_of(read, tmp_path) -> None:
     assert any(r.startswith("moment: rises throughout") for r in read(tmp_path / "r.csv").remarks)
 
 
+@pytest.mark.parametrize("ends", [(-1e308, 1e308), (0.0, np.inf), (np.nan, 1.0)])
+def test_a_first_column_of_any_numbers_is_no_matter(read, tmp_path, ends: tuple[float, float]) -> None:
+    t = np.arange(N) / RATE
+    first = np.where(np.arange(N) < N // 2, *ends)
+    np.savetxt(tmp_path / "r.csv", np.column_stack((first, t, t)), delimiter=",", header="q,a,b", comments="")
+    assert read(tmp_path / "r.csv").recording.samples.shape == (2, N)
+
+
 def test_temperatures_called_t_are_no_time(read, tmp_path) -> None:
     t = np.arange(N) / RATE
     table = np.column_stack((20 + np.sin(t), np.sin(t), np.cos(t)))
